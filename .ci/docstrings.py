@@ -42,7 +42,7 @@ class Documented(Validator):  # type: ignore[misc]  # numpydoc has no types
     def parameter_mismatches(self) -> list[Any]:
         """Errors in the names or the order of the parameters or fields."""
         if inspect.isclass(self.obj) and (issubclass(self.obj, Enum) or getattr(self.obj, "_is_protocol", False)):
-            return []  # users do not call these
+            return []  # Users do not call these methods.
         fields = {name for name in self.signature_parameters if not name.startswith("_")}
         if not inspect.isclass(self.obj) or (fields and not self.doc["Attributes"]):
             return list(super().parameter_mismatches)
@@ -84,7 +84,8 @@ def public_names() -> Iterator[str]:
             yield f"{module.__name__}.{name}"
             for base in getattr(found, "__mro__", ()):
                 for member, value in vars(base).items() if base.__module__.startswith(PACKAGES) else ():
-                    is_field = getattr(value, "__name__", "") == "<lambda>"  # the default of a field
+                    # The default value of a field, which is documented with its class.
+                    is_field = getattr(value, "__name__", "") == "<lambda>"
                     if (
                         not (member.startswith("_") or is_field)
                         and isinstance(value, MEMBERS)

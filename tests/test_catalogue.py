@@ -152,5 +152,5 @@ def test_a_cell_says_why_it_has_no_number_and_the_others_stay():
     assert np.isfinite(both.values["trace"]).tolist() == [True, False, False, False, True]
     # The last torus has no limit cycle, but a trace: it is not without a value.
     assert np.isnan(both.values["stable"]).tolist() == [False, True, True, True, True]
-    assert "no pair of limit cycles" in both.why[4]
+    assert "no pair of limit cycles" in both.reasons[4]
     assert at_once.values["trace"][0] == pytest.approx(both.values["trace"][0], rel=1e-9)

@@ -8,7 +8,7 @@ from functools import cache
 
 from hess_explorer.assets import STATIC
 
-# The only forms that the modules use; any other one makes the bundle a syntax error.
+# These are the only forms in the modules; any other form makes the bundle a syntax error.
 _IMPORT = re.compile(r'^import \{([^}]*)\} from "(\.{1,2}/[\w./]+\.js)"$', re.MULTILINE)
 _EXPORT = re.compile(r"^export ((?:async )?(?:function|const|class)) (\w+)", re.MULTILINE)
 
@@ -37,7 +37,7 @@ def bundle(entry: str) -> str:
         if path not in exports:
             source = (STATIC / path).read_text(encoding="utf-8")
             exports[path] = ", ".join(found[1] for found in _EXPORT.findall(source))
-            # Its place is after the modules that it imports.
+            # A module follows its imports, which this substitution adds first.
             code = _IMPORT.sub(lambda found: _constants(found[1], add(_resolve(path, found[2]))), source)
             body = _EXPORT.sub(r"\1 \2", code)
             parts[path] = f"// {path}\nconst {name} = (() => {{\n{body}\nreturn {{ {exports[path]} }}\n}})()\n"

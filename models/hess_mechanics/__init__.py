@@ -17,7 +17,7 @@ from typing import Any
 
 import lazy_loader
 
-# The names of the stub beside this file; each module is imported when one of its names is first used.
+# Each module is imported when one of the names in the stub file is first used.
 _found, _stub_names, _ = lazy_loader.attach_stub(__name__, __file__)
 
 
@@ -40,7 +40,7 @@ def __getattr__(name: str) -> Any:
     try:
         value = _found(name)
     except AttributeError:
-        # A module is imported by the import system, which asks for it here first.
+        # The import system looks a submodule up here before it imports the module: raise AttributeError then.
         if name.startswith("_") or find_spec(f"{__name__}.{name}") or name not in _computations():
             raise
         value = _computations()[name]

@@ -53,7 +53,7 @@ from .suslov_hess.certificate import certificate
 from .suslov_hess.circle_map import CircleMap, FixedPoint, circle_map
 from .suslov_hess.edge import EdgeProof
 from .suslov_hess.equations import HessBody
-from .suslov_hess.mode_locking import critical_a, lock_boundary
+from .suslov_hess.mode_locking import critical_a, tongue_boundary
 from .suslov_hess.proof import Proof, prove
 
 __all__ = [  # noqa: RUF022 (by subject)
@@ -145,7 +145,7 @@ __all__ = [  # noqa: RUF022 (by subject)
     "curve_point",
     "f_max",
     "critical_a",
-    "lock_boundary",
+    "tongue_boundary",
     "prove",
     "Proof",
     "EdgeProof",

@@ -73,9 +73,9 @@ class Parameter:
         Group to which the parameter belongs.
     unit : str, default "1"
         Unit; "1" for a number in the units of the problem.
-    means : str, optional
+    meaning : str, optional
         Distinguishes parameters with the same label.  A scene takes over a value from another scene only if both agree.
-    whole : bool, default False
+    is_integer : bool, default False
         True for integers.
     """
 
@@ -89,8 +89,8 @@ class Parameter:
     doc: str = ""
     group: Group = "State"
     unit: str = "1"
-    means: str = ""
-    whole: bool = False
+    meaning: str = ""
+    is_integer: bool = False
 
     @property
     def range(self) -> str:
@@ -117,8 +117,8 @@ class Parameter:
             If it is not finite, outside the bounds, or not an integer where one is required.
         """
         low, high = self.bounds
-        if not (low <= value <= high and (not self.whole or value == round(value))):
-            kind = "is not a whole number" if self.whole else "is not"
+        if not (low <= value <= high and (not self.is_integer or value == round(value))):
+            kind = "is not a whole number" if self.is_integer else "is not"
             raise InvalidParameter(f"{self.name} = {plain(value)} {kind} {self.range}: choose a value in this range.")
         return value
 
@@ -205,7 +205,7 @@ D = Parameter(
 K_DRIVES_I11 = Parameter(
     "k",
     "k",
-    "k, drives I₁₁",
+    "k, which sets I₁₁",
     2.4,
     (-2.0, 7.0),
     0.05,
@@ -247,7 +247,7 @@ A_HESS = Parameter(
     (0.0, 2.0),
     0.005,
     (-1e3, 1e3),
-    "a = I₂₃/I₂₂ (Suslov) or √((a₃−a₂)(a₂−a₁))/a₂ (Euler–Poisson); a body has |a| < 1.",
+    "a = I₂₃/I₂₂ (Suslov) or √((a₃−a₂)(a₂−a₁))/a₂ (Euler–Poisson); a rigid body has |a| < 1.",
     "Body",
 )
 B_HESS = Parameter("b", "b", "Field b", 1.0, (0.05, 3.0), 0.01, (-1e3, 1e3), "Field of the reduced equations.", "Body")
@@ -260,7 +260,7 @@ H_HESS = Parameter(
     0.01,
     (-1.0 + 1e-9, 1e6),
     "Energy integral in units b = 1: h > −1; separatrix at h = 1, f = 0.",
-    means=_UNITS_OF_B,
+    meaning=_UNITS_OF_B,
 )
 H_PLANE = replace(H_HESS, bounds=(-1e6, 1e6))
 """h for sweeps and commands, which report h ≤ −1 themselves."""
@@ -272,8 +272,8 @@ F_HESS = Parameter(
     (-3.0, 3.0),
     0.01,
     (-1e4, 1e4),
-    "Area integral in units b = 1. Its range follows h.",
-    means=_UNITS_OF_B,
+    "Area integral in units b = 1; its range depends on h.",
+    meaning=_UNITS_OF_B,
 )
 PHI0 = Parameter(
     "phi0",
@@ -314,7 +314,7 @@ I1, I2, I3 = tuple(
     Parameter(name, symbol, f"Moment {symbol}", default, (0.1, 3.0), 0.005, _MOMENT, doc, "Body")
     for name, symbol, default, doc in (
         ("I1", "I₁", 1.0, "First principal moment of inertia."),
-        ("I2", "I₂", 0.625, "Middle principal moment: it lies between I₁ and I₃, else there is no Hess condition."),
+        ("I2", "I₂", 0.625, "Middle principal moment; the Hess condition needs I₂ between I₁ and I₃."),
         ("I3", "I₃", 0.375, "Third principal moment of inertia."),
     )
 )
@@ -349,7 +349,7 @@ MU_R = Parameter(
     (-20.0, 20.0),
     0.005,
     (-1e3, 1e3),
-    "The potential is −μ(r, γ). Its sign is that of r.",
+    "The product μ|r| in the potential −μ(r, γ); its sign is that of r.",
     "Body",
 )
 MOMENTUM = _vector(
@@ -362,9 +362,27 @@ MOMENTUM = _vector(
     (-1e3, 1e3),
     "Component of the angular momentum at t = 0.",
 )
-H_HEAVY = Parameter("h", "h", "Energy h", 50.0, (-9.0, 100.0), 0.05, (-1e3, 1e5), "H = h; above −μ|r|.", means=_HEAVY)
+H_HEAVY = Parameter(
+    "h",
+    "h",
+    "Energy h",
+    50.0,
+    (-9.0, 100.0),
+    0.05,
+    (-1e3, 1e5),
+    "Energy H = h, which must exceed −μ|r|.",
+    meaning=_HEAVY,
+)
 F_HEAVY = Parameter(
-    "f", "f", "Area integral f", 5.0, (-8.0, 8.0), 0.05, (-1e3, 1e3), "(M, γ) = f. Its range follows h.", means=_HEAVY
+    "f",
+    "f",
+    "Area integral f",
+    5.0,
+    (-8.0, 8.0),
+    0.05,
+    (-1e3, 1e3),
+    "Area integral f = (M, γ); its range depends on h.",
+    meaning=_HEAVY,
 )
 L = Parameter(
     "l", "l", "Angle l", 0.0, _TURN, 0.01, _ANGLES, "Andoyer–Deprit angle of M about axis 3, at t = 0.", unit="rad"
@@ -378,8 +396,8 @@ SHEET = Parameter(
     (0, 2),
     1,
     (0, 2),
-    "Number of the momentum G of this energy; 0 is the largest.",
-    whole=True,
+    "Number of the root G of the energy equation; 0 is the largest root.",
+    is_integer=True,
 )
 H_PENDULUM = Parameter(
     "energy",
@@ -389,7 +407,7 @@ H_PENDULUM = Parameter(
     (-0.95, 4.0),
     0.01,
     (-1.0 + 1e-4, 1e4),
-    "In units of μ|r|: −1 hanging at rest, 1 the separatrix, on which it comes to rest upright.",
+    "In units of μ|r|: −1 hanging at rest, 1 the separatrix, on which the body comes to rest upright.",
 )
 L_PENDULUM = Parameter(
     "l",
@@ -419,7 +437,7 @@ H_SUSLOV = Parameter(
 H_BALL = Parameter(
     "h",
     "h",
-    "Energy above the plane's lowest",
+    "Energy above the minimum",
     2.0,
     (0.05, 5.0),
     0.01,
@@ -434,7 +452,7 @@ H_FREE_BALL = Parameter(
     (0.1, 20.0),
     0.1,
     (1e-6, 1e6),
-    "E = h > 0: every such energy is possible. It sets the size of the strip and the unit of time.",
+    "Energy E = h > 0, which sets the size of the strip and the unit of time.",
 )
 H_QUARTIC = Parameter(
     "h",
@@ -444,7 +462,7 @@ H_QUARTIC = Parameter(
     (-0.9, 4.0),
     0.01,
     (-1e2, 1e3),
-    "Above −|b₃|. Above |b₃| the point cannot reach the middle.",
+    "Energy above −|b₃|. Above |b₃| the point cannot reach the middle.",
 )
 
 # ---- where a motion starts, and how long it is followed -------------------------------------------------------------
@@ -494,7 +512,7 @@ DELTA = Parameter(
 THETA = Parameter(
     "theta",
     "θ⁻",
-    "Angle θ⁻ of the circle left",
+    "Angle θ⁻ of the initial circle",
     1.2,
     (0.0, 3.14),
     0.01,
@@ -503,7 +521,15 @@ THETA = Parameter(
     unit="rad",
 )
 CIRCLE_PHASE = Parameter(
-    "phi", "φ", "Phase φ", 0.5, _TURN, 0.01, _ANGLES, "Angle on that circle at which γ starts, in radians.", unit="rad"
+    "phi",
+    "φ",
+    "Phase φ",
+    0.5,
+    _TURN,
+    0.01,
+    _ANGLES,
+    "Angle on the initial circle at which γ starts, in radians.",
+    unit="rad",
 )
 GAMMA_CIRCLE = Parameter(
     "Gamma",
@@ -513,7 +539,7 @@ GAMMA_CIRCLE = Parameter(
     (-1.0, 1.0),
     0.01,
     (-1.0, 1.0),
-    "Where γ starts: the height along ξ of its circle on the sphere.",
+    "Initial component of γ along ξ, which is the height of its circle on the sphere.",
 )
 TIME = Parameter(
     "duration",
@@ -523,7 +549,7 @@ TIME = Parameter(
     (0.0, 200.0),
     1.0,
     (-1e9, 1e9),
-    "The last time; negative: backward.",
+    "Last time; negative for backward motion.",
     "Computation",
     "time",
 )

@@ -33,7 +33,7 @@ from hess_mechanics.numerics.accuracy import Accuracy, Kind, plan
 from hess_mechanics.numerics.arguments import as_cells, as_integer, as_level, as_number, as_pairs, as_point
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import run_in_threads
-from hess_mechanics.numerics.results import Array, angle_facts, frozen
+from hess_mechanics.numerics.results import Array, angle_facts, as_read_only
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.quartic import QuarticBody, QuarticSection
 from hess_mechanics.suslov.suslov_section import AngleSection, SuslovSection
@@ -342,7 +342,7 @@ def continued_orbit(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: f
     )
     along = zip(branch.values.tolist(), branch.points, strict=True)
     times = [abs(map_.at_constant(parameter, value).time_of(at)) for value, at in along]
-    return replace(branch, times=frozen(np.array(times)))
+    return replace(branch, times=as_read_only(np.array(times)))
 
 
 def orbit_diagram(
@@ -406,7 +406,7 @@ def orbit_diagram(
         )
     diagram = diagram_over(partial(map_.at_constant, parameter), parameter, values, point, transient, crossings, follow)
     if not any(map(len, diagram.points)):
-        # No value has a motion: raise the error of the first one.
+        # No value has a motion: raise the error of the first value.
         map_.at_constant(parameter, float(diagram.values[0])).state_at(np.array(point))
     return diagram
 
@@ -561,10 +561,10 @@ def basins(
     across, up = section.names
     return Basins(
         (across, up),
-        frozen(x),
-        frozen(y),
-        frozen(number.astype(int)),
-        frozen(crossings),
+        as_read_only(x),
+        as_read_only(y),
+        as_read_only(number.astype(int)),
+        as_read_only(crossings),
         there.contractions,
         there.count,
         level.name,
@@ -572,7 +572,7 @@ def basins(
 
 
 def _values_of(values: dict[str, float | None], *names: str) -> list[float]:
-    """Return the values of these integrals; any other integral must be absent.  Raises `InvalidParameter`."""
+    """Return the values of these integrals; no other integral may be given.  Raises `InvalidParameter`."""
     lost = [name for name in names if values[name] is None]
     if lost:
         raise InvalidParameter(f"The section of this body lies at given {' and '.join(names)}: give {lost[0]}.")

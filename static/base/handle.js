@@ -9,7 +9,7 @@ import { browserStore } from "./stores.js"
 /** @type {(keyof PageEvents)[]} */
 const CHANGES = ["change", "expression", "preset", "reset", "clear", "pick", "restore", "step", "enter"]
 
-// Scenes whose sign was shown.  Without a store each tab shows it once.
+// Scenes whose sign was shown.  Without storage, each tab shows a sign once.
 const said = new Set(browserStore.get("handles")?.split(","))
 
 /** @param {string} name */
@@ -35,7 +35,7 @@ export function sayDragMe(find) {
   for (const name of CHANGES) listen({ [name]: () => end() })
   listen({
     enter(description) { entered = description },
-    // A lesson says itself what to do.
+    // A lesson says what to do, so it needs no sign.
     reading(on) {
       isReading = on
       if (on) end()

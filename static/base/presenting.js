@@ -7,7 +7,7 @@ import { isEmbedded } from "./embedding.js"
 const LARGER = 2
 // Edge of a picture whose lines, dots and labels have their usual size, in pixels; those of smaller pictures are smaller.
 const USUAL = 280
-// Font size in pixels at a desk.
+// Font size in pixels outside present mode.
 const DESK = 14
 
 let isOn = false

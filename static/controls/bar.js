@@ -79,7 +79,7 @@ function foldOnPhone(tools, menu) {
     }
   }
   PHONE.addEventListener("change", place)
-  // After the tools are in the bar.
+  // Wait until the tools are in the bar.
   queueMicrotask(place)
 }
 
@@ -97,7 +97,7 @@ function tool({ name, label = name[0].toUpperCase() + name.slice(1), title, icon
 export function render({ first, dialogs, el }) {
   const heading = element("h1.heading")
   const offered = TOOLS.filter(({ name, asks }) => !asks || name in dialogs)
-  // Name → [button, its description].
+  // Maps a name to [button, description].
   /** @type {Map<string, [HTMLButtonElement, Tool]>} */
   const tools = new Map(offered.map((one) => [one.name, [tool(one), one]]))
   /** @param {"without" | "isDrawn"} property */
@@ -126,7 +126,7 @@ export function render({ first, dialogs, el }) {
   }
   enable({ undo: 0, redo: 0 })
   listen({
-    // The number of followers.
+    // Shows the number of followers.
     room({ code, followers }) {
       if (!tools.has("invite")) return
       const [item] = tools.get("invite")

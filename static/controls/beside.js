@@ -13,14 +13,14 @@ import { nameOf } from "../pictures/picture.js"
 import { dialogOf, section } from "./dialog.js"
 
 const HALF = "hess-explorer-half"
-// Event for the other page → event that the other page tells itself.
+// Maps an event for the other page to the event that the other page dispatches.
 /** @type {Record<string, "follow" | "turn" | "axes-beside">} */
 const HEARD = { time: "follow", turned: "turn", axes: "axes-beside" }
 
 /** Link this page to the other one, if it is one of two pages side by side. */
 export function joinOther() {
   if (window.name !== HALF || window.parent === window) return
-  // A change that follows the other page is not sent back.
+  // Do not send back a change that came from the other page.
   let isFollowing = false
   /** @type {PageEvents["axes"] | null} */
   let axes = null
@@ -38,7 +38,7 @@ export function joinOther() {
   })
   window.addEventListener("message", ({ source, origin: from, data }) => {
     if (source !== window.parent || from !== origin || !Array.isArray(data) || !Object.hasOwn(HEARD, data[0])) return
-    // The page that stood first tells its axes again, once the other can hear them.
+    // The first page sends its axes again once the other page can receive them.
     if (data[0] === "axes" && !hasMet && axes !== null) say("axes", axes)
     hasMet ||= data[0] === "axes"
     isFollowing = true
@@ -47,10 +47,10 @@ export function joinOther() {
   })
 }
 
-// Width at which a page shows all its pictures.
+// Width at which a page shows all its pictures, in pixels.
 const LEAST = 804
 
-// Keys of the address that both halves take from this page.
+// Keys of the address that both halves copy from this page.
 const SHARED = ["t", "speed", "az", "el", "theme"]
 
 /** Return the address of an embedded page with a state and, for the scene on show, the pictures in sight. @param {string} query */
@@ -80,7 +80,7 @@ export function besideDialog() {
     open(queries) {
       halves.forEach((half, i) => { half.src = addressOf(queries[i]) })
       dialog.showModal()
-      // Scaled to show all pictures, except on a phone.
+      // Scale the halves so that they show all pictures, except on a phone.
       for (const half of halves) half.style.zoom = String(PHONE.matches ? 1 : Math.min(1, half.parentElement.clientWidth / LEAST))
     },
   }

@@ -9,7 +9,7 @@ const TYPE = "Type a value or an expression such as pi/3, then press Enter."
 /** @type {Record<string, number>} */
 const STEPS = { ArrowUp: 1, ArrowDown: -1 }
 
-// Accepts a decimal comma.
+// Matches a number, also with a decimal comma.
 /** @param {string} text */
 const pointed = (text) => text.trim().replace(",", ".")
 
@@ -48,7 +48,7 @@ export function exactBox({ name, symbol, help, value, change, nudge, stepOf }) {
     onchange: take, oninput: () => mark(""), onkeydown,
   })
   const { why, say, mark } = reasonFor(box)
-  // Whether the server is evaluating an expression.
+  // True while the server evaluates an expression.
   let isAsked = false
 
   const isFocused = () => /** @type {ShadowRoot} */ (box.getRootNode()).activeElement === box
@@ -69,13 +69,13 @@ export function exactBox({ name, symbol, help, value, change, nudge, stepOf }) {
     mark(text === "" ? "This is not a number: type one like 1.5, 1e-8 or pi/3." : "")
     if (text === "") return
     if (typed !== value()) change(typed)
-    // As the server will write it; any other text is one that is being typed.
+    // Compare with the text that the server writes; any other text is still being typed.
     box.value = String(typed)
   }
 
   /** @param {KeyboardEvent} event */
   function onkeydown(event) {
-    // The browser itself undoes typing.
+    // The browser undoes typing itself.
     if ((event.ctrlKey || event.metaKey) && box.value !== String(value())) event.stopPropagation()
     if (event.key in STEPS) {
       const typed = numberOf(box.value)
@@ -98,7 +98,7 @@ export function exactBox({ name, symbol, help, value, change, nudge, stepOf }) {
     show(before, shown, isIdle) {
       if (!isAsked && isFocused() && box.value !== String(before)) return
       isAsked = false
-      // A disabled box cannot be scrolled: show as many digits as fit.
+      // A disabled box cannot be scrolled, so show only as many digits as fit.
       box.value = String(isIdle ? Number(shown.toPrecision(6)) : shown)
       mark("")
     },

@@ -23,7 +23,7 @@ export function comparison() {
     said, element("div.comparing", flip, apart, unpin), table, beside.dialog)
   listen({
     compared(compared) {
-      // This event comes with every state.
+      // This event follows every state, so skip an unchanged table.
       const text = JSON.stringify(compared)
       if (text === shown) return
       shown = text

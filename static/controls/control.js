@@ -69,7 +69,7 @@ const TYPE = "Press Enter to use it."
  */
 function formula({ name, label, help }) {
   let shown = ""
-  // Whether the server is reading a formula that was typed.
+  // True while the server reads a typed formula.
   let isAsked = false
   const line = element("input.formula", {
     type: "text", spellcheck: false, autocomplete: "off", title: `${help} ${TYPE}`, maxLength: 200,
@@ -84,7 +84,7 @@ function formula({ name, label, help }) {
         line.value = shown
         mark("")
       }
-      // The browser itself undoes typing.
+      // The browser undoes typing itself.
       if ((event.ctrlKey || event.metaKey) && line.value !== shown) event.stopPropagation()
     },
   })
@@ -92,7 +92,7 @@ function formula({ name, label, help }) {
   const isFocused = () => /** @type {ShadowRoot} */ (line.getRootNode()).activeElement === line
   /** @param {string} value */
   const show = (value) => {
-    // A formula that was refused stays, to be corrected.
+    // Keep a refused formula, so that the user can correct it.
     if (value !== shown || !(isAsked || isFocused())) {
       line.value = value
       mark("")
@@ -118,7 +118,7 @@ export function control(description) {
 export function followers() {
   /** @type {Record<string, Control>} */
   let parts = {}
-  // Latest values of the scene on show.
+  // Latest values of the current scene.
   /** @type {Record<string, ControlValue>} */
   let values = {}
   /** @param {Record<string, ControlValue>} changed */
@@ -132,7 +132,7 @@ export function followers() {
     change(changed) {
       for (const [name, value] of Object.entries(changed)) {
         const shown = values[name]
-        // The server sends a control again only when it is released.
+        // Show the value at once, because the server sends a control only when it is released.
         if (shown !== undefined) values[name] = /** @type {ControlValue} */ (Array.isArray(shown) ? [value, ...shown.slice(1)] : value)
         parts[name]?.follow?.(value)
       }

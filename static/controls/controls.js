@@ -18,11 +18,11 @@ export function render({ el }) {
   const chooser = element("div.chooser", { role: "group", ariaLabel: "Current control" })
   el.append(chooser, column, comparison())
   const put = followers()
-  // Groups that the user has unfolded, in any scene.
+  // Groups that the user has unfolded in any scene.
   const unfolded = new Set()
   /** @type {Map<string, HTMLElement>} */
   let items = new Map()
-  // The control that a phone shows.
+  // The control shown on a phone.
   let atHand = EXAMPLES
 
   /** @param {string} name */
@@ -72,7 +72,7 @@ export function render({ el }) {
     chooser.hidden = order.length === 0
     if (order.length > 0) take(isEssential(atHand) ? atHand : order[0])
   }
-  // The choices of the chart are there while it is.
+  // Show the choices of the chart only with the chart.
   function showCharts() {
     const hidden = !gallery.openCells().some((cell) => nameOf(cell) === "chart")
     for (const item of /** @type {NodeListOf<HTMLElement>} */ (el.querySelectorAll('.group-chart, [data-name^="chart"]'))) {
@@ -80,7 +80,7 @@ export function render({ el }) {
       item.hidden = hidden
     }
   }
-  // The sign is beside the thumb of the slider, on the side with more room.
+  // Place the sign beside the thumb of the slider, on the side with more room.
   sayDragMe((/** @type {{control: string}} */ { control }) => {
     const item = items.get(control)
     if (!item?.checkVisibility()) return null

@@ -14,7 +14,7 @@ import { button, element } from "../base/elements.js"
 export function dialogOf(title, classes, tools, ...parts) {
   const dialog = /** @type {HTMLDialogElement} */ (element(`dialog.${classes}`, {
     ariaLabel: title, onclick: (/** @type {Event} */ { target }) => { if (target === dialog) dialog.close() },
-    // Keys in a dialog are not for the page below.
+    // Keep key events of a dialog from the page below.
     onkeydown: (/** @type {Event} */ event) => event.stopPropagation(),
   }, element("div.head", element("h2", title), ...tools,
     button("button", () => dialog.close(), "Close")), ...parts))
@@ -64,7 +64,7 @@ export function copyButton(name, label, text) {
     try {
       await navigator.clipboard.writeText(copied)
     } catch {
-      // Only HTTPS pages and localhost may copy.
+      // The clipboard is available only on HTTPS pages and localhost.
       words = "Copy it by hand"
     }
     say(words, words)

@@ -50,7 +50,7 @@ export function exportDialog(files) {
   const moving = choices("moving", "Sliders that move in the file")
   const states = element("p.states")
   const one = element("label", "Picture ", picture)
-  // A loop has its own width and colours.
+  // A loop has its own size and colours.
   const figure = element("fieldset.figure", element("label", "Width, mm ", number("width", files.width)),
     element("label", box("black"), " Black on white"))
   const film = element("fieldset.figure", element("label", "Film ", loop),
@@ -78,7 +78,7 @@ export function exportDialog(files) {
   // Sliders that move in a page.
   /** @type {Record<string, ControlValue>} */
   let controls = {}
-  // The status line, for the metadata of a PNG.
+  // The status line goes into the metadata of a PNG file.
   let status = ""
   listen({
     controls(changed) { Object.assign(controls, changed) },
@@ -123,7 +123,7 @@ export function exportDialog(files) {
     command.value = `hess-explorer export --state '${state().replaceAll("'", "%27")}'${options} --out ${fileName(what)}`
   }
 
-  // Answers may come in any order: keep the one for the picture that is chosen.
+  // Answers may arrive in any order, so keep only the answer for the chosen picture.
   async function writePython() {
     const name = picture.value
     const { file, why } = await fetched({ picture: name, format: "py" })
@@ -195,7 +195,7 @@ export function exportDialog(files) {
       controls = {}
     },
     open() {
-      // The file shows the moment on the screen, and the address bar may lag behind it.
+      // Use the moment on the screen, because the address bar may lag behind.
       tell("run", null)
       tell("address")
       const open = gallery.openCells()

@@ -9,13 +9,13 @@ import { element, update } from "../base/elements.js"
 import { exactBox } from "./box.js"
 
 const IDLE = "Disabled: no effect with the current choices."
-// Steps of a slider without a step size.
+// Number of steps of a slider without a step size.
 const PARTS = 400
 
 // Pixels of a drag of the label over the whole range, unless steps are longer.
 const FULL_DRAG = 400
 
-// Rounds 0.1 + 0.2 to 0.3.
+// Rounding turns 0.1 + 0.2 into 0.3.
 /** @param {number} value */
 const tidy = (value) => Number(value.toPrecision(12))
 
@@ -52,7 +52,7 @@ export function number({ name, label, symbol, help, range }) {
   let shown = null
   let [low, high] = range
   let track = ""
-  // Slider and box follow, as in a drag.
+  // Slider and box follow, as during a drag.
   /** @param {number} value */
   const take = (value) => {
     if (value === shown) return

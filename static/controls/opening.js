@@ -12,11 +12,11 @@ import { CALM } from "../base/windows.js"
  * @param {{begin: () => void, end: () => void}} player begin() starts it, end() stops it
  */
 export function opening({ begin, end }) {
-  // Scenes that were played.
+  // Scenes that have been played.
   const begun = new Set()
   let isResting = false
   let isWaiting = false
-  // Motion takes the time of the browser, and on some machines that of the computation.
+  // Animation costs time in the browser, and on some machines delays the computation.
   let isComputing = false
   let isReading = false
   let isAlone = false

@@ -12,9 +12,9 @@ import { CALM } from "../base/windows.js"
 import { opening } from "./opening.js"
 
 const SPEEDS = [0.25, 0.5, 1, 2, 4, 8]
-// Least duration of the first playing, in seconds.
+// Shortest duration of the first playing, in seconds.
 const GENTLE = 20
-// Elements that use arrow keys themselves.
+// Elements that handle arrow keys themselves.
 const OWN_ARROWS = "input, button, a, summary, [role=slider]"
 const PLAY = "M8 6v12l10-6z"
 const PAUSE = "M8 6v12M16 6v12"
@@ -34,7 +34,7 @@ export function render({ el }) {
       move(slider.valueAsNumber)
     },
   })
-  // No live region: the clock would talk all the time.
+  // The clock is no live region, because screen readers would announce it all the time.
   const output = element("output", { ariaLive: "off" })
   const speed = element("select.param-speed", {
     ariaLabel: "Speed", title: "Speed: units of t per second", onchange: () => tell("url", { speed: speed.value }),
@@ -52,11 +52,11 @@ export function render({ el }) {
   let source = null
   let t = 0
   let playing = false
-  // Whether a click has chosen where the motion starts: it begins with the next state.
+  // True if a click has chosen the start of the motion, which begins with the next state.
   let isStarting = false
   /** @type {number | null} */
   let last = null
-  // A run of a lesson.
+  // The animation of a lesson.
   /** @type {PageEvents["run"]} */
   let run = null
   // Units of t per second of the first playing, see "opening.js"; else null.
@@ -141,7 +141,7 @@ export function render({ el }) {
 
   const onData = () => {
     slider.max = String(end())
-    // The time is kept while there is no motion.
+    // Keep the time while there is no motion.
     if (end() > 0 && t > end()) t = end()
     show()
   }
@@ -158,7 +158,7 @@ export function render({ el }) {
       move(Number(time))
     },
     pick({ pick: [picture], drag }) { isStarting ||= !drag && scene.pictures.some(({ name, starts }) => name === picture && starts) },
-    // An example begins at its start.
+    // An example starts at its initial time.
     preset() { move(0) },
     painted() {
       if (!isStarting) return
@@ -166,11 +166,11 @@ export function render({ el }) {
       move(0)
       play(!CALM.matches)
     },
-    // The next scene starts from this time.
+    // The next scene continues from this time.
     scene() { if (playing) play(false) },
     client(own) {
       t = Number(own.t)
-      // A link with a time shows that moment.
+      // A link with a time shows the motion at this time.
       if (t !== 0) start.rest()
       speed.value = String(SPEEDS.includes(Number(own.speed)) ? Number(own.speed) : 1)
     },

@@ -55,7 +55,7 @@ export function sceneMenu(scenes) {
 
   function fill() {
     const base = scenes.find(({ name }) => name === here)?.origin ?? here
-    // Scenes that look into another scene are offered only with that scene.
+    // Offer a scene that measures another scene only together with that scene.
     const offered = scenes.filter(({ origin }) => origin === null || origin === base)
     list.replaceChildren(...[...new Set(offered.map(({ group }) => group))].map((group) => section(group, group,
       element("div.tiles", ...offered.filter((scene) => scene.group === group)
@@ -88,7 +88,7 @@ export function sceneMenu(scenes) {
       const next = neighbour(tiles(), tile, event.key)
       ;(next ?? (event.key === "ArrowUp" ? search : tile)).focus()
     } else {
-      // Typing searches: the letter goes where the focus is.
+      // Typing starts a search: put the letter into the focused search box.
       if (/^\S$/u.test(event.key) && !event.ctrlKey && !event.metaKey && !event.altKey) search.focus()
       return
     }
@@ -98,7 +98,7 @@ export function sceneMenu(scenes) {
   return {
     box: dialog,
     open() {
-      // The theme may be another one.
+      // The theme may have changed.
       fill()
       search.value = ""
       filter()

@@ -21,7 +21,7 @@ export function stepControls() {
   /** @type {HTMLButtonElement[]} */
   let words = []
   let isAlone = false
-  // Where the column of controls is beside the text, it is enough.
+  // No controls are needed here if the column of controls is beside the text.
   const isColumnAway = () => NARROW.matches || PHONE.matches || isPresenting() || isEmbedded() || isAlone
   /** @type {ControlDescription[]} */
   let known = []

@@ -37,7 +37,7 @@ function start() {
   const { client, sheets, recording } = model
   const given = new URLSearchParams(location.hash.slice(1))
   for (const key of Object.keys(client)) if (given.has(key)) client[key] = given.get(key)
-  // The lesson of the file is open from the start.
+  // Open the lesson of the file at the start.
   const { lesson, step } = client
   const query = lesson === "" ? location.hash.slice(1) : recording.families[recording.steps[`${lesson}/${Number(step) - 1}/false`] ?? 0].queries[0]
   const stripAt = createShelf(async (number) => (await fetch(`data:;base64,${read(`strip-${number}`)}`)).body)

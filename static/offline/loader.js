@@ -6,7 +6,7 @@ async function load() {
   const { body } = await fetch(`data:;base64,${document.getElementById("code").textContent}`)
   const code = body.pipeThrough(new DecompressionStream("deflate"))
   const { bokeh, page } = await new Response(code).json()
-  // Not run yet, see "pictures/plot.js".
+  // Bokeh does not run yet, see "pictures/plot.js".
   const held = Object.assign(document.createElement("script"), { id: "bokeh", type: "text/plain", textContent: bokeh })
   document.head.append(held)
   await import(page)

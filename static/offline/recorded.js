@@ -18,7 +18,7 @@ const ABSENT = "This file does not contain that state: open the explorer by the 
 const PLAIN = "Type a plain number: expressions need the explorer."
 const NEAREST = "This file contains only some states: the nearest one is shown."
 
-// A slider whose steps reach a little beyond its end could not reach the end.
+// If the steps of a slider went a little beyond its end, the slider could not reach the end.
 const BELOW = 1 - 1e-9
 
 /** @param {number} value */
@@ -49,7 +49,7 @@ export function nearestPoint({ names, points }, at, changes, scales = {}) {
     })
     return [asked, moved, away]
   }
-  // Of equals the one on show.
+  // Among equally near points, prefer the current one.
   const [[nearest]] = [at, ...points.keys()].map((k) => [k, ...distance(points[k])])
     .toSorted(([, a, b, c], [, x, y, z]) => a - x || b - y || c - z)
   return nearest
@@ -64,7 +64,7 @@ export function nearestPoint({ names, points }, at, changes, scales = {}) {
 export function createRecorded({ families, picks, sources, steps, scenes, lessons }, stripAt, query) {
   /** @type {Map<string, [family: number, at: number]>} */
   const known = new Map()
-  // A state belongs to the family that begins with it, if there is one.
+  // A state belongs to the family that begins with this state, if there is one.
   families.forEach(({ queries: [first] }, i) => { if (!known.has(first)) known.set(first, [i, 0]) })
   families.forEach(({ queries }, i) => queries.forEach((one, k) => { if (!known.has(one)) known.set(one, [i, k]) }))
   let [here, at] = find(query) ?? [0, 0]
@@ -77,7 +77,7 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
   const described = new Set()
   /** @type {Tree["ranges"]} */
   let ranges = {}
-  // Scene → source → what the page shows, to leave out what stays the same.
+  // Maps scene → source → visible columns, so that unchanged columns are omitted.
   /** @type {Map<string, Map<string, string>>} */
   const filled = new Map()
 
@@ -199,7 +199,7 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
     const { trees, block } = await stripAt(number)
     const tree = trees[index]
     ranges = tree.ranges
-    // The strips of the neighbours, for the next move.
+    // Load the strips of the neighbours for the next move.
     for (const near of [at - 1, at + 1]) if (states[near] !== undefined && states[near][0] !== number) stripAt(states[near][0])
     count += 1
     const lesson = lessons[request?.lesson ?? ""]

@@ -8,7 +8,7 @@
  * @typedef {{trees: Tree[], arrays: Coding[], planes: number}} Head
  */
 
-// Decoded strips that are kept; most have 2.5 MB.
+// Number of decoded strips to keep; most take 2.5 MB.
 const MOST = 20
 
 /**
@@ -31,7 +31,7 @@ export async function decodeStrip(packed) {
     for (let i = 0; i < count; i++) whole[i] |= bytes[plane * count + i] << (8 * plane)
   }
   arrays.forEach(([n, step, low, before], k) => {
-    // Sums are taken modulo 2³².
+    // Sums are modulo 2³².
     let sum = 0
     for (let i = starts[k], j = starts[before]; i < starts[k] + n; i++, j++) {
       sum = (sum + ((whole[i] >>> 1) ^ -(whole[i] & 1))) | 0

@@ -5,7 +5,7 @@ import { tell } from "../base/bus.js"
 import { written } from "../base/numbers.js"
 
 const TIME = "time"
-// As many as a box can show.
+// Number of digits that a box can show.
 const DIGITS = 4
 
 /**
@@ -32,7 +32,7 @@ export function createAnimation({ name, start: from, end: to, seconds }) {
     /** @param {number} now */
     const step = (now) => {
       const share = Math.min(1, (now - begun) / (1000 * seconds))
-      // The newest value wins: the animation runs as fast as states are painted.
+      // Drop outdated values: the animation runs as fast as states are painted.
       if (name !== TIME) tell("change", { [name]: share === 1 ? to : Number((from + share * (to - from)).toPrecision(DIGITS)) })
       if (share < 1) running = requestAnimationFrame(step)
       else stop()

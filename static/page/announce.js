@@ -8,9 +8,9 @@ import { listen } from "../base/bus.js"
 import { written } from "../base/numbers.js"
 import { byHand } from "../base/windows.js"
 
-// Milliseconds without a new state until the hand rests.
+// Milliseconds without a new state after which the user counts as idle.
 const REST = 700
-// Numbers of a larger change, such as an example, are not listed.
+// Larger changes, such as an example, are not listed number by number.
 const MOST = 2
 const DIGITS = 4
 
@@ -20,10 +20,10 @@ const DIGITS = 4
  */
 export function announcer(sentence) {
   const item = element("p.unseen.announced", { role: "status" })
-  // Picture → the verdict that was announced last, or found when the picture came into sight.
+  // Maps a picture to the verdict that was announced last, or that was there when the picture appeared.
   /** @type {Map<string, string>} */
   const known = new Map()
-  // Control → its number now, and when the hand rested last.
+  // Maps a control to its current number and its number at the last idle time.
   /** @type {Map<string, number>} */
   const now = new Map()
   let before = new Map(now)
@@ -43,7 +43,7 @@ export function announcer(sentence) {
   function say() {
     /** @type {string[][]} */
     const news = []
-    // A step of a lesson may hide captions, which are news when they come back.
+    // A step of a lesson may hide captions, which count as new when they reappear.
     for (const cell of gallery.cellsInSight().filter(({ classList }) => !classList.contains("veiled"))) {
       const [title, verdict, numbers] = captionOf(cell)
       const last = known.get(nameOf(cell))
@@ -58,7 +58,7 @@ export function announcer(sentence) {
   }
 
   listen({
-    // The captions of another scene are its own: no change, and the old announcement no longer holds.
+    // Do not announce the captions of another scene as changes, and forget the old announcement.
     enter({ moves, controls }) {
       known.clear()
       now.clear()
@@ -70,7 +70,7 @@ export function announcer(sentence) {
     controls(changed) { for (const [name, [value]] of Object.entries(changed)) if (typeof value === "number") now.set(name, value) },
     progress(progress) {
       clearTimeout(resting)
-      // More parts of this state will come.
+      // Wait for the remaining parts of this state.
       if (progress === null) resting = setTimeout(say, REST)
     },
   })

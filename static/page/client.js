@@ -48,9 +48,9 @@ export function startClient(model, host) {
   let state = null
   /** @type {ReturnType<typeof setTimeout>} */
   let more = null
-  // When the last new part of the state was painted.
+  // Time when the last new part of the state was painted.
   let news = 0
-  // Everything the server has sent about the scene on show.
+  // All data that the server has sent for the current scene.
   /** @type {{scene: SceneDescription | null, texts: Texts, controls: Record<string, ControlValue>}} */
   let latest = { scene: null, texts: {}, controls: {} }
   root.dataset.ready = "false"
@@ -99,7 +99,7 @@ export function startClient(model, host) {
   listen({
     url(keys) {
       Object.assign(own, keys)
-      // The first state writes the address of earlier changes too.
+      // The first state also writes the address of earlier changes.
       if (state !== null) address.write()
     },
     "ask-client": (hear) => hear(own),
@@ -122,7 +122,7 @@ export function startClient(model, host) {
     Object.assign(latest.controls, tree.controls)
     tell("texts", tree.texts)
     tell("captions", tree.captions)
-    // Controls that were moved since the request keep their values.
+    // Controls that were moved after the request keep their values.
     tell("controls", Object.fromEntries(
       Object.entries(tree.controls).filter(([name]) => !requests.hasMoved(name, answers))))
   }
@@ -149,7 +149,7 @@ export function startClient(model, host) {
       if (!isSketched) return fillAll(state, block)
       setAxes(scene, Object.keys(scene.ranges))
       for (const source of scene.sources.values()) source.feed()
-      // They name the plots too.
+      // The captions also name the plots.
       tell("captions", state.tree.captions)
     })
     scene.painted = true
@@ -164,7 +164,7 @@ export function startClient(model, host) {
     if (requests.isBehind(state.answers)) requests.ask()
     else {
       tell("painted")
-      // A listener may have requested another state.
+      // A listener may have requested another state meanwhile.
       if (requests.isBehind(state.answers)) return
       if (state.progress === null) root.dataset.ready = "true"
       else {
@@ -211,7 +211,7 @@ export function startClient(model, host) {
       await show(next, block)
       if (description !== null) await build(description)
     }).catch((error) => {
-      // A state that fails must not block the next ones.
+      // A state that fails must not block later states.
       requests.settled()
       console.error(error)
     })
@@ -237,7 +237,7 @@ export function startClient(model, host) {
 
   const start = async () => {
     await gallery.standing
-    // The preference of the system counts until the user chooses a theme.
+    // Follow the preference of the system until the user chooses a theme.
     const preference = matchMedia("(prefers-color-scheme: dark)")
     let isAlone = false
     const followPreference = () => {
@@ -246,7 +246,7 @@ export function startClient(model, host) {
     followPreference()
     preference.addEventListener("change", followPreference)
     listen({
-      // As in a cinema.
+      // Darken the page while pictures are shown alone, as in a cinema.
       alone(names) {
         isAlone = names.length > 0
         followPreference()

@@ -42,7 +42,7 @@ export function createCompare(now) {
   let isHeld = false
   /** @type {Kept["ghost"] | null} */
   let before = null
-  // A, and B while A is on show.
+  // State A, and state B while A is shown.
   /** @type {Kept | null} */
   let pinned = null
   /** @type {Kept | null} */
@@ -112,6 +112,6 @@ export function createCompare(now) {
   document.addEventListener("pointerdown", () => { isHeld = true }, { capture: true })
   for (const name of ["pointerup", "pointercancel"]) document.addEventListener(name, end, { capture: true })
   onKeys({ c: flip })
-  // A new state keeps the comparison up to date.
+  // A new state updates the comparison.
   return { painted: () => { if (pinned !== null) refresh() } }
 }

@@ -63,13 +63,13 @@ function start() {
 
   /** @type {Map<string, SceneDescription>} */
   const descriptions = new Map()
-  // Scene → source → its columns before the first state.
+  // Maps scene → source → its columns before the first state.
   /** @type {Map<string, Map<string, Data>>} */
   const empty = new Map()
   /** @type {ReturnType<typeof createGuess> | null} */
   let guess = null
   const veil = createVeil()
-  // The step that has asked for the guess.
+  // The step that asked for the guess.
   let asked = ""
 
   const send = atMost((/** @type {{guess: number[][], step: number}} */ message) => room.send(message))
@@ -112,7 +112,7 @@ function start() {
     veil((show.revealed ? null : show.step?.prediction) ?? show.step?.hide ?? null)
     await paint(scene.plots, () => {
       fill(scene, state.tree, block)
-      // Each state is whole: what it leaves out is not there.
+      // Each state is complete: omitted columns are empty.
       for (const [source, data] of empty.get(state.scene)) {
         if (!(source in state.tree.sources)) scene.sources.get(source).put(data)
       }
@@ -129,7 +129,7 @@ function start() {
     root.dataset.ready = "true"
   }
 
-  // While a state is painted, only the newest arrival is kept.
+  // While a state is painted, keep only the newest arrival.
   /** @type {(() => Promise<void>) | null} */
   let next = null
   let isDrawing = false

@@ -32,7 +32,7 @@ const sceneOf = (query) => new URLSearchParams(query).get("scene")
  */
 export function createHistory({ query, isSettled, address }, steps) {
   let { past, future, current, goal, isChanged } = steps ?? { past: [], future: [], current: null, goal: null, isChanged: false }
-  // The step of the browser's entry.
+  // The step of the browser's history entry.
   /** @type {string | null} */
   let entered = null
   let isHeld = false
@@ -48,7 +48,7 @@ export function createHistory({ query, isSettled, address }, steps) {
     announce()
   }
 
-  // Discards changes that are not a step yet.
+  // Discards changes that do not form a step yet.
   function undo() {
     const here = goal ?? current
     if (isSettled() ? query() !== here : isChanged) {
@@ -74,7 +74,7 @@ export function createHistory({ query, isSettled, address }, steps) {
       past = [...past, current].slice(-MOST)
       future = []
     }
-    // After Back the browser shows its entry already.
+    // After Back, the browser already shows its entry.
     if (entered !== null && here !== entered && !isPopped && (isExample || sceneOf(here) !== sceneOf(entered))) {
       address.push(entered)
     }

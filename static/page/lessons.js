@@ -18,12 +18,12 @@ import { browserStore } from "../base/stores.js"
 import { within } from "../base/numbers.js"
 import { byHand, CALM } from "../base/windows.js"
 
-// One turn of a wheel is one step.
+// One turn of the mouse wheel is one step.
 const PAUSE = 700
 
 /** Return whether the page is opened for the first time, by its bare address.  Programs that drive a browser get the whole page. */
 export function isFirstVisit() {
-  // Without a store every visit would be the first.
+  // Without storage, every visit would count as the first.
   const isFirst = location.search === "" && !navigator.webdriver && browserStore.works() && browserStore.get("introduced") === null
   if (isFirst) browserStore.set("introduced", "1")
   return isFirst
@@ -38,7 +38,7 @@ const toTop = (part) => part.scrollIntoView({ block: "start", inline: "start" })
 /** Return the question of a step and its answer. @param {LessonStep} step @returns {HTMLElement[]} */
 const questionOf = ({ question, answer }) => (question === "" ? [] : [
   html("div.question", question), element("details.answer", {
-    // Above the buttons of the step, which would cover it.
+    // Keep clear of the buttons of the step.
     /** @param {{currentTarget: HTMLDetailsElement}} event */
     ontoggle({ currentTarget: item }) { if (item.open) toTop(item) },
   }, element("summary", "Answer"), html("div", answer)),
@@ -62,7 +62,7 @@ export function render({ index, record, el }) {
   let lesson = null
   let at = 0
   let turned = 0
-  // These belong to the step on show and end with it.
+  // These values belong to the current step and are reset with it.
   /** @type {ReturnType<typeof createGuess> | null} */
   let guess = null
   /** @type {HTMLButtonElement | null} */
@@ -80,7 +80,7 @@ export function render({ index, record, el }) {
     tell("step", [name, number, revealed])
   }
 
-  // Whether the step shows its pictures alone.
+  // True if the step shows only its own pictures.
   const isAlone = () => lesson !== null && lesson.steps[at].pictures.length > 0
 
   function leaveStep() {
@@ -101,7 +101,7 @@ export function render({ index, record, el }) {
     veil(prediction ?? hide ?? null)
   }
 
-  // Shows a step whose state is on show or requested.
+  // Shows a step whose state is shown or requested.
   function showStep() {
     leaveStep()
     const step = lesson.steps[at]
@@ -277,7 +277,7 @@ export function render({ index, record, el }) {
   listen({
     enter(scene) {
       showTries(scene)
-      // When all parts of the page have heard of the scene, and still before its painting.
+      // Run after all parts of the page know the scene, and before it is painted.
       queueMicrotask(() => { if (expected !== null) arrange(expected) })
     },
     audience(text) {
@@ -296,7 +296,7 @@ export function render({ index, record, el }) {
   })
   addEventListener("wheel", (event) => {
     if (!isAlone()) return
-    // No picture is zoomed.
+    // Reset the zoom of all pictures.
     event.preventDefault()
     event.stopPropagation()
     if (event.deltaY <= 0 || event.timeStamp - turned < PAUSE) return

@@ -6,7 +6,7 @@ import { unpack } from "../base/unpack.js"
 import { showAxes } from "../pictures/plot.js"
 import { zoomed } from "../pictures/zoom.js"
 
-// One broken picture must not block the page.
+// Longest wait for a plot in milliseconds: a broken picture must not block the page.
 const MOST = 2000
 
 /**

@@ -37,7 +37,7 @@ export function spot() {
     item.classList.add("moving")
     resting = setTimeout(() => item.classList.remove("moving"), REST)
   })
-  // Older listeners of Escape come first.
+  // Earlier listeners of Escape have priority.
   onKeys({ escape: () => isPresenting() && tell("present") }, window)
   return item
 }

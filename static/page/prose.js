@@ -56,7 +56,7 @@ function showSigns(box, signs) {
  */
 export function render({ part, el }) {
   const item = element(`div.${part}`)
-  // Formulas and tables that scroll by themselves are reached with the keyboard.
+  // Make formulas and tables that scroll reachable with the keyboard.
   new ResizeObserver(() => {
     for (const wide of /** @type {NodeListOf<HTMLElement>} */ (item.querySelectorAll('math[display="block"], table'))) {
       wide.tabIndex = wide.scrollWidth > wide.clientWidth ? 0 : -1
@@ -70,7 +70,7 @@ export function render({ part, el }) {
       depth?.follow()
     },
     texts({ signs }) { if (signs !== undefined) showSigns(item, signs) },
-    // A lesson takes the place of the words.
+    // A lesson replaces the text of the scene.
     reading(on) { if (depth !== null) item.hidden = depth.menu.hidden = on },
   })
   if (depth !== null) el.append(depth.menu)

@@ -44,7 +44,7 @@ export function recording() {
   }, "Record a lesson")
 
   function start() {
-    // Before the first state there is nothing to begin with.
+    // Recording needs a first state.
     if (document.documentElement.dataset.state === "0") return
     steps = []
     take()
@@ -64,7 +64,7 @@ export function recording() {
     end()
   }
 
-  // The state on show is a new step, unless it is that of the last step.
+  // The current state is a new step, unless it equals the last step.
   function take() {
     if (steps === null || steps.length >= MOST) return
     const query = queryHere()
@@ -94,7 +94,7 @@ export function recording() {
 
   listen({
     enter(scene) { names = scene.controls.map(({ name }) => name) },
-    // The history of undo steps knows when a change has come to an end.
+    // The undo history knows when a change is complete.
     steps: take,
     url(keys) { if (keys.large !== undefined) look(keys.large.split(",")[0]) },
     folded({ name, folded }) { if (!folded) look(name) },

@@ -40,7 +40,7 @@ export function createRequests({ send, changed, hidden, known }) {
   let asking = false
   let lost = false
   let silent = false
-  // Whether a pointer holds a slider, and the last pointer was a finger.
+  // Whether a pointer holds a slider, and whether the last pointer was a finger.
   let grasped = false
   let touched = false
   // Fields of the next request, and of the last one until its answer is painted.
@@ -49,17 +49,17 @@ export function createRequests({ send, changed, hidden, known }) {
   /** @type {Partial<StateRequest>} */
   let flying = {}
   let isResumed = false
-  // The scene on show, and the scene that was chosen last.
+  // The current scene, and the scene that was chosen last.
   /** @type {string | null} */
   let shown = null
   /** @type {string | null} */
   let target = null
   /** @type {ReturnType<typeof setTimeout>} */
   let late = null
-  // When it was asked last, and how long the answer took to be painted.
+  // Time of the last request, and time until its answer was painted.
   let sent = 0
   let took = 0
-  // Control → number of the request that changed it last.
+  // Maps a control to the number of the last request that changed it.
   const moved = new Map()
 
   const wait = () => {
@@ -140,7 +140,7 @@ export function createRequests({ send, changed, hidden, known }) {
     preset: (preset) => restart({ preset }),
     reset: () => restart({ reset: true }),
     clear: () => restart({ clear: true }),
-    // The state may belong to another scene.
+    // The answer may belong to another scene.
     restore(restore) {
       target = new URLSearchParams(restore).get("scene") ?? shown
       restart({ restore, scene: target })

@@ -19,7 +19,7 @@ export function createRoom({ query }) {
   let own = null
   /** @type {ReturnType<typeof openRoom>} */
   let room = null
-  // Where the page is going, and the place whose state is on show.
+  // The requested place, and the place of the current state.
   /** @type {Place} */
   let wanted = { lesson: "", step: 0, revealed: false, picture: "" }
   let there = wanted
@@ -96,10 +96,10 @@ export function createRoom({ query }) {
     },
     url({ lesson, step, large }) {
       if (lesson !== undefined) {
-        // The guesses go with their step.
+        // Guesses are removed with their step.
         if (lesson !== wanted.lesson || Number(step) !== wanted.step) endAudience()
         wanted = { ...wanted, lesson, step: Number(step), revealed: false }
-        // No state follows the end of a lesson.
+        // No state follows the end of a lesson, so send this at once.
         if (lesson === "") {
           there = wanted
           show()
@@ -107,7 +107,7 @@ export function createRoom({ query }) {
       }
       if (large !== undefined) {
         wanted = { ...wanted, picture: large.split(",")[0] }
-        // It needs no new state, unless the page is on the way to one.
+        // No new state is needed, unless another one is requested.
         if (!isThere()) return
         there = wanted
         show()

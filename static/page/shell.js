@@ -47,7 +47,7 @@ function tabsOf(columns) {
     const [next] = tabs[(here + across + tabs.length) % tabs.length]
     choose(next)
     next.focus()
-    // Elsewhere arrow keys move the time.
+    // Prevent the default, because elsewhere arrow keys move the time.
     event.preventDefault()
   }
   // Columns side by side are not tabs.
@@ -58,7 +58,7 @@ function tabsOf(columns) {
   choose(tabs[0][0])
   follow()
   listen({
-    // The text of a lesson, at its start.
+    // Scroll to the beginning of a lesson.
     reading(on) { if (on) choose(tabs.find(([, column]) => column.id === "text")[0]) },
     // Pictures that are shown alone leave the columns as the page opens with them.
     alone(names) { if (names.length > 0) choose(tabs[0][0]) },
@@ -75,7 +75,7 @@ const folding = (label, ...content) => element("details", element("summary", lab
 /** Return a link to the state on show, in the explorer. @param {`a.${string}`} name its classes @param {string} label */
 export function opener(name, label) {
   const link = element(name, { target: "_blank", rel: "noopener", href: "." }, label)
-  // Link to the state on show when the link is used.
+  // Update the link when it is used, so that it leads to the current state.
   for (const event of ["pointerdown", "focus", "click"]) {
     link.addEventListener(event, () => {
       tell("address")
@@ -145,13 +145,13 @@ export function buildPage(model, host, { mount, bar, lessons, styles }, el) {
   /** @param {string} key @param {string} [tag] */
   const text = (key, tag) => mount("text", renderText, { key, tag })
   const numbers = folding("Derived numbers", text("derived", "div"), text("fixed", "div"))
-  // They would move down when the controls come.
+  // Hide these numbers until the controls appear, because they would move down then.
   numbers.hidden = true
   const controls = element("section.controls.column", { id: "controls" }, mount("controls", renderControls), numbers)
   const reader = element("section.reader.column", { id: "text" },
     element("div.reading", mount("lessons", renderLessons, lessons), mount("prose", renderProse, { part: "words" })),
     Object.assign(folding("Legend", mount("prose", renderProse, { part: "legend" })), { className: "signs", ariaLabel: "Legend" }))
-  // Scrolling columns are reached with the keyboard.
+  // Make scrolling columns reachable with the keyboard.
   const [reading, signs] = /** @type {Iterable<HTMLElement>} */ (reader.children)
   for (const column of [controls, reading, signs]) column.tabIndex = 0
   Object.assign(reading, { role: "region", ariaLabel: "What you see" })

@@ -8,7 +8,7 @@ const FULL = 1013
 // Milliseconds between attempts to reach a server that has restarted, or that was lost while the machine slept.
 const FIRST = 1000
 const LONGEST = 15000
-// A frozen server accepts connections and does not answer.
+// A frozen server accepts connections but does not answer.
 const ATTEMPT = 5000
 
 // Seconds without a message after which the page asks whether the server is alive, says that it does not respond, and tries
@@ -46,12 +46,12 @@ export function watch(socket, silent, dead) {
   let seconds = 0
   const retry = async () => {
     if (!await isAlive()) return
-    // A server that goes on answers here too.
+    // A working server answers here too.
     await new Promise((done) => setTimeout(done, 1000))
     if (seconds >= DEAD) dead()
   }
   const timer = setInterval(() => {
-    // The timers of a hidden page are late.
+    // The timers of a hidden page run late.
     if (document.hidden) return
     seconds += 1
     if (seconds === ASKED && socket.readyState === WebSocket.OPEN) socket.send('{"alive": true}')
@@ -79,7 +79,7 @@ export function openWebsocket(receive, lost, silent) {
   const socket = new WebSocket(url)
   socket.binaryType = "arraybuffer"
   socket.addEventListener("message", ({ data }) => {
-    // Only the answer to "alive" is a text.
+    // Only the answer to "alive" is a text frame.
     if (typeof data === "string") return
     const { head, block } = decode(data)
     receive(head, block)

@@ -86,7 +86,7 @@ function namesIn(width, count, isColumn, { names, gap }) {
  */
 function layout(viewport, leading, rest, names) {
   const { width, height, gap, head, least } = viewport
-  // Where most pictures lead, the others may be as large.
+  // If most pictures lead, the others may be equally large.
   const largest = leading > rest ? 1 : LARGEST
   let best = { worth: -Infinity, lead: { columns: 1, edge: 0 }, isBeside: false, isColumn: false, strip: { columns: 1, edge: 0 } }
   for (const columns of upTo(leading)) {

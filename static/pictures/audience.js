@@ -21,7 +21,7 @@ export function createAudience(prediction, cloud, say) {
   const { draw, remove, toPixels, toData } = overlay(plot, "audience", { ariaHidden: true }, "pointer-events: none", paint)
   const points = cloud.flat()
   const middle = points.length === 0 ? [] : isCurve ? medianCurve(points) : [middleOf(points)]
-  // The truth in pixels; it may come in pieces, later than the state, and a repainting moves it.
+  // The truth in pixels; it may arrive in pieces, later than the state, and moves when the plot is repainted.
   /** @type {[number, number][][]} */
   let lines = []
   /** @param {number[]} point */

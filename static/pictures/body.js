@@ -25,7 +25,7 @@ import { circle, cross, dot, plus, scaled, unit } from "./vectors.js"
 const CAVITY = 0.62
 const INNER = 0.26
 const BALL = 9
-// Weights on a light page and on a dark one.
+// Colours of the weights on a light page and on a dark page.
 const STEEL = ["#7C8794", "#8E99A6"]
 
 /**
@@ -124,7 +124,7 @@ export function bodyIn(source, attitude) {
     if (isMass) drawMass(ctx, ...at(to), BALL, text, dark)
     const beyond = scaled(to, 1 + 0.12 / Math.hypot(...to))
     const [right, up] = view(beyond)
-    // A half-hidden label cannot be read.
+    // A half-hidden label would be unreadable.
     if (!label || (!near && seen.length && covers(seen, semi, right, up, 0.05))) return
     const aside = isMass ? 16 : 0
     const [x, y] = at(beyond)

@@ -89,7 +89,7 @@ export function drawShadow({ ctx, dark, half, px, py, at }, axes, semi) {
   const [x, y] = at([0, 0, -1])
   const [a, b] = [px(1, 0) - x, py(1, 0, -1) - y]
   const [c, d] = [px(0, 1) - x, py(0, 1, -1) - y]
-  // The ground is not seen from below, and is a line from the side.
+  // The ground is invisible from below, and a line from the side.
   if (a * d - b * c > -1) return
   const { halves: [long, short], angle } = outline(axes, semi)
   ctx.save()
@@ -110,7 +110,7 @@ export function drawShadow({ ctx, dark, half, px, py, at }, axes, semi) {
   ctx.scale(long, short)
   fade(dark ? "0, 0, 0" : "30, 36, 48", dark ? 0.24 : 0.13, 1.1)
   ctx.restore()
-  // It ends before the picture does.
+  // The shadow ends before the edge of the picture.
   const frame = ctx.createRadialGradient(half, half, 0.78 * half, half, half, half)
   frame.addColorStop(0, "#000")
   frame.addColorStop(1, "transparent")
@@ -226,7 +226,7 @@ export function drawTrail({ ctx, stroke, use, at, isNear }, path, look, near, do
   const n = path[0].length
   const most = TRAIL / TRAIL_PIECES
   for (let k = 0; k < TRAIL_PIECES; k++) {
-    // The newest piece ends at the point.
+    // The last piece of the trail ends at the moving point.
     const [from, to] = [Math.max(0, n - 1 - (k + 1) * most), n - 1 - k * most]
     if (to < 1) break
     const share = 1 - k / TRAIL_PIECES

@@ -1,7 +1,7 @@
 // @ts-check
 // Undocumented parts of the BokehJS that "pyproject.toml" asks for, with the reason of their use.
 
-// Any font size: no size on this page is relative to it.
+// Any font size will do, because no size on this page is relative to it.
 const FONT = 13
 const UNSEEN = /** @type {const} */ (["selection_glyph", "nonselection_glyph", "muted_glyph", "decimated_glyph"])
 const FOLLOWING = /** @type {const} */ (["set_data", "set_visuals", "after_visuals", "after_lazy_visuals", "map_data"])
@@ -13,7 +13,7 @@ const FOLLOWING = /** @type {const} */ (["set_data", "set_visuals", "after_visua
  * rest longer.  Bokeh's types call the static property `press_threshold` read-only.
  */
 export function waitLongForPress() {
-  // The longest delay of a timer.
+  // The longest delay that a timer accepts.
   Bokeh.require("core/ui_gestures").UIGestures.press_threshold = 2 ** 31 - 1
 }
 

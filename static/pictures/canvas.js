@@ -34,7 +34,7 @@ export function fit(canvas, width, height) {
  */
 export function liveCanvas(className, properties, paint) {
   const canvas = element(`canvas.${className}`, properties)
-    // Sizes are kept here: reading them in each frame would force a layout.
+    // Keep the sizes, because reading them in each frame would force a layout.
   const own = { canvas, width: 0, height: 0, request }
   let requested = false
 

@@ -34,7 +34,7 @@ function sheetOf(columns, rows, { palette, low, high }, valueAt) {
   for (let row = 0, i = 0; row < rows; row++) {
     for (let column = 0; column < columns; column++, i++) {
       const value = valueAt(rows - 1 - row, column)
-      // Cells without a number are left out, in interpolated pictures also points next to them.
+      // Leave out cells without a number, and in interpolated pictures also points next to them.
       out[i] = Number.isNaN(value) ? 0 : colours[Math.max(0, Math.min(last, Math.floor((value - low) * scale)))]
     }
   }
@@ -137,7 +137,7 @@ export function cellsPainter(layers, source) {
       const [left, right] = [xScale.compute(x), xScale.compute(x + wide)]
       const [bottom, top] = [yScale.compute(y), yScale.compute(y + high)]
       const sheet = sheetFor({ ...layer, low: least, high: most }, cells, Math.round(ratio * (right - left)), Math.round(ratio * (bottom - top)))
-      // Cells about as large as pixels are averaged, so that no curve is lost between two pixels.
+      // Average cells about as large as pixels, so that no curve falls between two pixels.
       ctx.imageSmoothingEnabled = layer.fine === true
       ctx.imageSmoothingQuality = "high"
       ctx.drawImage(sheet, left, top, right - left, bottom - top)

@@ -15,7 +15,7 @@ import { pointLayer } from "./point_layer.js"
 import { connectZoom, zoomed } from "./zoom.js"
 
 const MARGIN = { left: 46, right: 8, top: 8, bottom: 42 }
-// Most intervals between ticks, and digits of a label.
+// Largest number of intervals between ticks, and digits of a label.
 const [MOST, DIGITS] = [5, 6]
 // Length of a tick, and distance of its label.
 const [TICK, GAP] = [5, 7]
@@ -111,7 +111,7 @@ export function cloudPlane(el, options, source, isShown) {
   const clouds = cloudsOf(own)
   const layer = pointLayer()
   let t = 0
-  // Kept while there are no clouds.
+  // Keep the last range while there are no clouds.
   /** @type {Axes} */
   let whole = [-1, 1, -1, 1]
   const { canvas, request, shoot } = squareCanvas(el, "sphere.cloud", {
@@ -162,7 +162,7 @@ export function cloudPlane(el, options, source, isShown) {
       ctx.stroke()
     }
     for (const [look, a, b] of points) drawMark(ctx, x(a), y(b), look, text)
-    // Over the equilibria, where a whole cloud may end.
+    // Draw above the equilibria, where a whole cloud may end.
     layer.draw(ctx, Math.round(edge * ratio), ratio, clouds.at(t), ({ count, w1, w2 }, add) => {
       for (let i = 0; i < count; i++) add(ratio * x(w1[i]), ratio * y(w2[i]))
     })

@@ -55,7 +55,7 @@ function draw({ picture, side, ratio, isDark = false, isBlack = false, texts }) 
     const look = { edge: side / ratio, ratio, text: shade(ink()), dark: isDark, isFine: true, texts }
     ctx.drawImage(gallery.shown.shots.get(picture)(look), 0, 0)
     if (isBlack) {
-      // Takes the colours away.
+      // Remove the colours of the theme.
       ctx.globalCompositeOperation = "saturation"
       ctx.fillStyle = ink()
       ctx.fillRect(0, 0, side, side)

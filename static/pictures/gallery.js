@@ -87,7 +87,7 @@ async function build(description, begun = async () => {}) {
   })
   // The player reads the orbit even if no picture draws it.
   for (const name of [...description.tracks, ...Object.keys(description.dots)]) source(name)
-  // In place, to have its size, but hidden until it is filled.
+  // Insert the picture at once, to get its size, but hide it until it is filled.
   grid.classList.add("away")
   shelf.append(grid)
   stage.place(scene)

@@ -59,7 +59,7 @@ export function planeGhost(plot) {
       if (what === kept) return
       kept = what
       if (canvas === null) {
-        // Above filled areas and below the moving layers.
+        // Place the ghost above filled areas and below the moving layers.
         canvas = frameCanvas(plot, plot.canvas_view.overlays.el, "before", paint)
         canvas.element.classList.add("ghost")
       }

@@ -121,7 +121,7 @@ export function createGuess(prediction, say, guessed = null) {
   let plot = null
   /** @type {ReturnType<typeof overlay> | null} */
   let over = null
-  // In data coordinates.
+  // Coordinates are those of the data.
   /** @type {number[][]} */
   let clicks = []
   /** @type {number[][] | null} */
@@ -210,7 +210,7 @@ export function createGuess(prediction, say, guessed = null) {
     wait() { this.isRevealed = true },
     /** Draw the truth; the revealed state is on show. */
     reveal() {
-      // The state of the step never came: the next one was asked for at once.
+      // The state of this step never arrived, because the next step was requested at once.
       if (over === null) return say("Revealed. There was no guess.")
       over.sheet.blur()
       over.sheet.tabIndex = -1

@@ -6,10 +6,10 @@
 const INKS = [["rgba(0, 0, 0, 0.87)", "rgba(0, 0, 0, 0.6)"], ["rgb(255, 255, 255)", "rgba(255, 255, 255, 0.7)"]]
 export const POINT = "#F0E442"
 
-// CSS name → [colour on a light page, colour on a dark page].
+// Maps a CSS name to [colour on a light page, colour on a dark page].
 /** @type {Record<string, [string, string]>} */
 let shades = {}
-// Colour on a light page → colour on a dark page.
+// Maps a colour on a light page to the colour on a dark page.
 /** @type {Map<string, string>} */
 let onDarkPage = new Map()
 let dark = false
@@ -50,7 +50,7 @@ export const inks = () => INKS[Number(dark)]
 /** @param {string} name @param {number} weight @param {number[]} dash @returns {Look} */
 const look = (name, weight, dash = []) => ({ get colour() { return shade(shades[name][0]) }, dash, weight })
 
-// Looks without a colour have that of text.
+// Looks without a colour use the text colour.
 /** @type {Record<string, Look>} */
 export const LOOKS = {
   orbit: look("orbit", 2.2),
@@ -111,7 +111,7 @@ export function drawMark(ctx, x, y, name, text) {
  */
 export const bytesOf = (colour) => [1, 3, 5, 7].map((at) => Number.parseInt(colour.slice(at, at + 2) || "ff", 16))
 
-// Looks of the first cloud of points and of the second.
+// Looks of the first and the second cloud of points.
 const CLOUDS = ["orbit", "second"]
 /**
  * Return [red, green, blue, alpha] of a cloud of points.

@@ -1,7 +1,7 @@
 // @ts-check
 // Medians of numbers, points and curves.
 
-// Pieces of a median curve.
+// Number of pieces of a median curve.
 const MOST_PIECES = 8
 
 /** Return the median. @param {number[]} values */

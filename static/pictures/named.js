@@ -25,7 +25,7 @@ export function lightNames(el) {
   function light(event) {
     const [picture, layer] = named(event)
     const plot = gallery.plots.find(({ model }) => model.name === picture)
-    // A hidden layer is not lit up: it may be the answer of a guess.
+    // Do not highlight a hidden layer, which may be the answer of a guess.
     const renderer = plot?.model.renderers.find(({ name, visible }) => name === layer && visible)
     if (renderer === undefined) return
     dim()

@@ -67,7 +67,7 @@ function addCanvases(plot, { cells, dots, points }, source) {
     const canvas = frameCanvas(plot, ...where, painter(layers, source))
     for (const layer of layers) {
       source(layer.source).watch(canvas.request)
-      // Nothing else is painted then.
+      // Nothing else needs painting then.
       if (isMoving) source(layer.source).watch(canvas.draw)
     }
     if (isMoving) source("data-swarm").watch(canvas.request)
@@ -78,7 +78,7 @@ function addCanvases(plot, { cells, dots, points }, source) {
   add(points, [overlays.el, "after"], movingPointsPainter, true)
 }
 
-// Names of axes that depend on the state.
+// Set axis names that depend on the state.
 /** @param {PlotModel} model @param {Source} names */
 function nameAxes({ below: [x], left: [y] }, names) {
   const rename = () => {

@@ -27,7 +27,7 @@ function atFirst(read) {
   }
 }
 
-// Sizes that are columns are left alone.
+// Leave sizes that are columns unchanged.
 const sizesOf = atFirst((part) => SIZES.filter((name) => part[name] != null)
   .map((name) => [name, part[name].value ?? part[name]]).filter(([, value]) => typeof value !== "object"))
 

@@ -2,7 +2,7 @@
 // PNG files that say where they come from.
 
 const METRE = 39.37
-// Bytes of the signature and of the first chunk, after which others may follow.
+// Number of bytes of the signature and the first chunk, after which other chunks may follow.
 const HEAD = 33
 
 /** Return the check sum of the PNG format. @param {Uint8Array} bytes */

@@ -19,7 +19,7 @@ export function pointLayer() {
       sheet.width = sheet.height = size
       pixels = paper.createImageData(size, size)
     }
-    // Little-endian pixels, alpha last.
+    // Pixels are little-endian, with alpha last.
     new Uint32Array(pixels.data.buffer).fill((blue << 16) | (green << 8) | red)
   }
 
@@ -38,7 +38,7 @@ export function pointLayer() {
       clouds.forEach((cloud, k) => {
         begin(size, cloudColour(k))
         const { data } = pixels
-        // Smaller clouds are darker.
+        // Draw smaller clouds darker.
         const alpha = Math.max(110, Math.min(230, 1_100_000 / cloud.count))
         points(cloud, (x, y) => {
           const [left, top] = [Math.round(x - side / 2), Math.round(y - side / 2)]

@@ -27,7 +27,7 @@ export function createSheet(ctx, { edge, ratio, text, dark, isFine = false }, tu
   const depth = (x, y, z) => ce * (ca * x + sa * y) + se * z
   /** @type {(point: Vector) => [number, number]} */
   const at = ([x, y, z]) => [px(x, y), py(x, y, z)]
-  // Labels that were written: centre and half the width.
+  // Written labels: centre and half the width.
   /** @type {number[][]} */
   const taken = []
   /**
@@ -86,7 +86,7 @@ export function createSheet(ctx, { edge, ratio, text, dark, isFine = false }, tu
       const [across, down] = [ctx.measureText(label).width / 2, 8]
       const places = ASIDE.map(([a, b]) => [
         Math.min(Math.max(x + a * (across + 16), across), edge - across),
-        // A little more than needed, for rounding.
+        // Add a margin for rounding.
         Math.min(Math.max(y + b * (2 * down + 1), down), edge - down)])
       /** @param {number[]} place */
       const free = ([left, top]) => taken.every(([other, above, wide]) => (

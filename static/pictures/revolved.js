@@ -93,11 +93,11 @@ export function createRevolved() {
   const canvas = element("canvas")
   const paper = canvas.getContext("2d")
   let side = 0
-  // Each so-manyth corner is used, around the axis and along the cross-section.
+  // Strides between used corners, around the axis and along the cross-section.
   let stride = 1
   /** @type {ImageData} */
   let image
-  // Premultiplied colours, and the depth of what is in front.
+  // Premultiplied colours, and the depth of the frontmost facet.
   let colours = new Float32Array(0)
   let depths = new Float32Array(0)
 
@@ -115,7 +115,7 @@ export function createRevolved() {
    */
   function fill(a, b, c) {
     const v = corners
-    // Sorted by y.
+    // Sort the corners by y.
     if (v[b + 1] < v[a + 1]) [a, b] = [b, a]
     if (v[c + 1] < v[a + 1]) [a, c] = [c, a]
     if (v[c + 1] < v[b + 1]) [b, c] = [c, b]
@@ -191,7 +191,7 @@ export function createRevolved() {
     const [ce, se] = [Math.cos(elevation), Math.sin(elevation)]
     let k = 0
     for (let j = 0; j <= AROUND; j += stride) {
-      // The first and the last are one, to the last bit.
+      // The first and the last corner must coincide exactly.
       const psi = 2 * Math.PI * (j % AROUND) / AROUND
       const [c, s] = [Math.cos(psi), Math.sin(psi)]
       for (let i = 0; i < radius.length; i += stride) {
@@ -273,7 +273,7 @@ export function createRevolved() {
   let key = ""
   /** The cross-section that was shaded. @type {ArrayLike<number> | null} */
   let last = null
-  // Pixels per unit of the sheet.
+  // Pixels per unit of length.
   let perEdge = 1
 
   return {

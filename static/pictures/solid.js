@@ -103,13 +103,13 @@ export function createSolid() {
    */
   function cast(axes, semi, width, height, columns, rows, { even, odd, ambient }, glass) {
     const { data, width: side } = image
-    // In coordinates in which the ellipsoid is the unit sphere, a ray is start + depth × along.
+    // Use coordinates in which the ellipsoid is the unit sphere; a ray is start + depth × along.
     const [ux, uy, uz] = [0, 1, 2].map((i) => axes.map((axis, k) => axis[i] / semi[k]))
     const a = dot(uz, uz)
     // The shading goes on for a few pixels beyond the outline.
     const beyond = 1 + 6 / Math.min(columns, rows)
     const outside = a * (1 - beyond * beyond)
-    // A tone changes over a pixel and a half.
+    // A tone changes over one and a half pixels.
     const sharp = columns / (3 * width)
     const [s0, s1, s2] = semi.map((length) => length * sharp)
     const [n0, n1, n2] = axes.map((axis, k) => axis.map((x) => x / semi[k]))
@@ -140,7 +140,7 @@ export function createSolid() {
         data[i + 3] = glass ? 255 * Math.min(1, GLASS + 0.12 * share + 0.5 * rim * rim + 0.6 * shine) : 255
       }
     }
-    // Smoothing reads one pixel further, where a larger body may have been.
+    // Smoothing reads one pixel beyond the outline, where a larger body may have been drawn.
     shade.clearRect(0, 0, side, side)
     shade.putImageData(image, 0, 0, 0, 0, columns, rows)
   }

@@ -16,7 +16,7 @@ export class Source {
   add(model, plot) {
     this.#models.push(model)
     this.plots.add(plot)
-    // Data that came before the plot are kept.
+    // Keep data that arrive before the plot.
     if (Object.keys(this.data).length === 0) this.data = model.data instanceof Map ? Object.fromEntries(model.data) : model.data
   }
 

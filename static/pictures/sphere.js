@@ -62,7 +62,7 @@ function drawAxis({ isNear, at, line, write }, axis, label, near) {
 export function sphere(el, options, source, isShown) {
   const inSpace = options.attitude !== undefined
   const own = source(options.name)
-  // Additional layers.
+  // Layers in addition to the tracks.
   /** @type {SphereGuest | null} */
   const guest = options.clouds !== undefined ? sphereClouds(source(options.clouds))
     : inSpace ? bodyIn(own, source(options.attitude)) : null

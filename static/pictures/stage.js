@@ -64,7 +64,7 @@ export function createStage(shelf, gallery) {
     const type = typeNow()
     for (const plot of scene.plots) {
       const { classList, style } = scene.cells.find((one) => nameOf(one) === plot.model.name)
-      // A folded picture has no place yet.
+      // A folded picture has no place.
       const edge = Number.parseFloat(style.getPropertyValue("--edge"))
       if (Number.isNaN(edge)) continue
       const isAside = classList.contains("aside")
@@ -168,7 +168,7 @@ export function createStage(shelf, gallery) {
   /** @param {string[]} names */
   function enlarge(names) {
     large = names
-    // From now on pictures move to their places.
+    // From now on, animate moves of pictures.
     shelf.classList.add("placed")
     tell("url", { large: names.join(",") })
     placeShown()
@@ -184,7 +184,7 @@ export function createStage(shelf, gallery) {
     enlarge(isAdded ? [...large, name].slice(-MOST_LARGE) : [name])
   }
 
-  // A picture of the strip is one button.
+  // A picture of the strip acts as one button.
   shelf.addEventListener("click", ({ target }) => {
     if (!(target instanceof Element) || target.closest(".corner")) return
     const cell = target.closest(".aside")
@@ -198,14 +198,14 @@ export function createStage(shelf, gallery) {
     event.preventDefault()
     toggle(nameOf(cell), event.shiftKey)
   })
-  // Other uses of Escape come first.
+  // Other uses of Escape have priority.
   onKeys({ escape: () => large.length > 0 && enlarge([]) }, window)
 
   listen({
     alone(names) {
       alone = names
       for (const name of names) unfold(name)
-      // Wait until the page has its new sizes.
+      // Wait until the page has its new layout.
       requestAnimationFrame(placeShown)
     },
     presenting: () => requestAnimationFrame(placeShown),
@@ -219,9 +219,9 @@ export function createStage(shelf, gallery) {
       placeShown()
     },
     client(own) { wanted = own.large ?? "" },
-    // Their titles are the names on the chips.
+    // The chips carry the titles of these pictures.
     painted() { if (PHONE.matches) placeShown() },
-    // The picture of a lesson step.
+    // Mark the picture of a lesson step.
     look(name) {
       unfold(name)
       enlarge([name])

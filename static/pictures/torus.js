@@ -15,7 +15,7 @@ import { drawBeads } from "./swarm.js"
 import { turnable } from "./turnable.js"
 import { circle, scaled } from "./vectors.js"
 
-// The orbit is thin, as it may fill the surface; its trail is not.
+// The orbit is thin, because it may fill the surface; its trail is thicker.
 const THIN = 1.3
 const HIDDEN = 0.55
 // How far behind the surface curves may seem to lie, in radii of the unit sphere.  At its outline it is steep.
@@ -49,7 +49,7 @@ function densityOf({ re, im }) {
  */
 export function torus(el, options, source, isShown) {
   const own = source(options.name)
-  // Shaded for the screen and for files.
+  // The surface is shaded separately for the screen and for files.
   const [onScreen, inFiles] = [createRevolved(), createRevolved()]
   /** @param {Pick<Sheet, "isFine">} sheet */
   const surfaceOf = ({ isFine }) => (isFine ? inFiles : onScreen)

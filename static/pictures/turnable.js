@@ -74,7 +74,7 @@ export function turnable(el, className, {
   })
 
   listen({
-    // The picture of another scene may have been rotated since.
+    // The picture of another scene may have been rotated meanwhile.
     enter() { if (isShown()) askForTurn() },
     turn([turned, ...angles]) { if (isShown() && turned === name && angles.every(Number.isFinite)) rotate(...angles) },
     time(now) {

@@ -8,7 +8,7 @@ import { gallery } from "./gallery.js"
 /** @param {Layer | null} layer @returns {BokehModel[]} */
 function renderersOf(layer) {
   const plot = layer === null ? undefined : gallery.plots.find(({ model }) => model.name === layer.picture)
-  // The label names the layer where it is.
+  // Hide the label too, because it would show the place of the layer.
   const sources = [layer?.source, `${layer?.source}-label`]
   return plot === undefined ? [] : plot.model.renderers.filter(({ data_source: data }) => sources.includes(data?.name))
 }

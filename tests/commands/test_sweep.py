@@ -112,7 +112,7 @@ def test_ctrl_c_without_a_store_writes_what_is_done(capsys, monkeypatch, tmp_pat
             raise KeyboardInterrupt
         return pieces.compute(piece)
 
-    monkeypatch.setattr(running, "cells_of_a_piece", lambda *_: 1)
+    monkeypatch.setattr(running, "piece_size", lambda *_: 1)
     monkeypatch.setattr(working, "compute", interrupted)
     assert main([*SWEEP, "--format", "csv", "--out", str(tmp_path / "part.csv")]) == 130
     assert capsys.readouterr().err == "hess-explorer: stopped after 2 of 6 cells.\n"

@@ -13,7 +13,7 @@ from support.measured import line
 def test_every_computation_of_every_scene_is_shown_by_some_state(name):
     """No preset of the Suslov problem showed the indicator, and the table lost all rows."""
     for trial in scenes()[name].trials:
-        assert trial.applies(example(scenes()[name], trial)), trial.kind
+        assert trial.condition(example(scenes()[name], trial)), trial.kind
 
 
 def test_the_table_of_kinds_has_them_all_with_what_a_draft_computes():

@@ -125,12 +125,12 @@ def test_pieces_are_begun_in_their_order_on_all_threads_and_added_ones_follow(ga
 
 def test_refinements_are_begun_when_nothing_else_is_missing(free_gate):
     work = Work()
-    work.newest([tasks(2, first=7)], last=True)
+    work.newest_results([tasks(2, first=7)], last=True)
     work.need(Task(square, 3), preview=None)
     assert work.todo == tasks(1, first=3)
     free_gate.get(square, 3)
     again = Work()
-    again.newest([tasks(2, first=7)], last=True)
+    again.newest_results([tasks(2, first=7)], last=True)
     again.need(Task(square, 3), preview=None)
     assert again.todo == tasks(2, first=7)
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from hess_explorer.compute.cache import ResultCache, size_of
 from hess_explorer.scenes import scenes
-from hess_mechanics.numerics.results import frozen
+from hess_mechanics.numerics.results import as_read_only
 
 KILOBYTE = 1024
 WAIT = 30
@@ -36,7 +36,7 @@ class Counted:
 
     def __call__(self, *arguments):
         self.calls.append(arguments)
-        return Result(str(arguments), frozen(np.zeros(self.size, np.uint8)))
+        return Result(str(arguments), as_read_only(np.zeros(self.size, np.uint8)))
 
 
 def test_a_second_question_gets_the_same_object_and_is_told_so():

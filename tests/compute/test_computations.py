@@ -15,15 +15,15 @@ from hess_explorer.compute.pool import POOL
 from hess_explorer.scenes import suslov_hess
 from hess_explorer.server import warm
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from support.board import ACCURACY, HESS, SCENES, Board, Browser, contents, elsewhere, plots_of, variant
+from support.board import ACCURACY, HESS, SCENES, Board, Browser, contents, other_sheets, plots_of, variant
 from support.thorough import sample
 
 some_scenes = pytest.mark.parametrize("scene", sample(SCENES.values(), 5), ids=lambda scene: scene.name)
 
 # By the names of the functions.
 MAP, CYCLES, TRACK = "circle_map", "cycles", "track"
-BOUNDARY, CURVE, GRID = "lock_boundary", "curve", "rotation_number_window"
-LEVELS, OTHERS, GROWTH = "measure_levels", "measure_others", "growth"
+BOUNDARY, CURVE, GRID = "tongue_boundary", "curve", "rotation_number_window"
+LEVELS, OTHERS, GROWTH = "measure_levels", "measure_scipy", "growth"
 MOTION = {MAP, CYCLES, TRACK}
 ZONES = {BOUNDARY, CURVE, GRID}
 STUDY = {LEVELS, OTHERS, GROWTH}
@@ -71,7 +71,7 @@ def nothing_later(monkeypatch):
 
     Disable proofs as well: a state that waits for its proof looks up all its results in the cache again.
     """
-    monkeypatch.setattr(POOL, "fill", lambda task: None)
+    monkeypatch.setattr(POOL, "add_task", lambda task: None)
     monkeypatch.setattr(suslov_hess, "has_flint", lambda: False)
 
 
@@ -93,8 +93,8 @@ def needed(seen):
     )
 
 
-def compute(scene, values, seen=None, dragging=False):
-    return scene.compute(scene.admit(values)[0], scene.pictures if seen is None else seen, dragging)
+def compute(scene, values, seen=None, is_preview=False):
+    return scene.compute(scene.admit(values)[0], scene.pictures if seen is None else seen, is_preview)
 
 
 # --- The Suslov–Hess case ----------------------------------------------------------------------------
@@ -231,7 +231,7 @@ def test_what_a_change_leaves_as_it_was_is_not_sent_again(cache):
 
 
 # Another state for each scene, and more of those of the scenes whose pictures are computed one by one.
-STATES = [(scene, elsewhere(scene)) for scene in SCENES.values()] + [
+STATES = [(scene, other_sheets(scene)) for scene in SCENES.values()] + [
     (scene, {**scene.defaults(), **change, "span": 9.0})
     for scene in (HESS, ACCURACY)
     for change in ({"h": 1.25, "phi0": -1.0, "I23": 0.35}, {"h": 1.0, "f": 0.0}, {"h": 30.0})

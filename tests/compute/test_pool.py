@@ -12,7 +12,7 @@ import pytest
 from hess_explorer.compute import pool
 from hess_explorer.compute.budget import ClientGone, OverBudget, check, time_budget
 from hess_explorer.compute.cache import ResultCache
-from hess_explorer.compute.pool import MOST, Pool, RequestQueue
+from hess_explorer.compute.pool import MAX_REQUESTS, Pool, RequestQueue
 from hess_mechanics.dynamics.trade import measure
 from hess_mechanics.numerics.accuracy import Kind
 from hess_mechanics.numerics.parallel import run_in_threads
@@ -44,7 +44,7 @@ def occupied(own, task=False):
         begun.set()
         waited(end)
 
-    (own.fill if task else RequestQueue().put)(work)
+    (own.add_task if task else RequestQueue().put)(work)
     waited(begun)
     return end
 
@@ -54,12 +54,12 @@ def test_requests_of_a_session_run_in_order_one_at_a_time_and_of_too_many_the_ne
     started = threading.Event()
     session.put(lambda: (started.set(), waited(go)))
     waited(started)
-    for n in range(MOST + 5):
+    for n in range(MAX_REQUESTS + 5):
         session.put(lambda n=n: done.append((n, threading.current_thread().name[:7])))
     session.put(ended.set)
     go.set()
     waited(ended)
-    assert done == [(n, "request") for n in range(6, MOST + 5)]
+    assert done == [(n, "request") for n in range(6, MAX_REQUESTS + 5)]
 
 
 def test_the_session_that_was_served_least_recently_is_next_and_an_error_ends_none(own, caplog):
@@ -84,7 +84,7 @@ def test_the_session_that_was_served_least_recently_is_next_and_an_error_ends_no
 def test_tasks_wait_while_requests_occupy_the_cores_and_never_hold_up_a_request(own, monkeypatch):
     monkeypatch.setattr(pool, "PATIENCE", PATIENCE)
     begun, request = threading.Event(), occupied(own)
-    own.fill(begun.set)
+    own.add_task(begun.set)
     assert not begun.wait(0.05)
     request.set()
     waited(begun)
@@ -97,13 +97,13 @@ def test_under_any_load_tasks_go_on_but_no_more_at_a_time_than_cores(own, monkey
     monkeypatch.setattr(pool, "PATIENCE", 0.01)
     requests = [occupied(own) for _ in range(2)]
     task, second = occupied(own, task=True), threading.Event()
-    own.fill(second.set)
+    own.add_task(second.set)
     assert not second.wait(0.1)
     task.set()
     waited(second)
     for one in requests:
         one.set()
-    own.use(0)
+    own.set_cores(0)
     assert own.cores == 1
 
 

@@ -22,7 +22,7 @@ def moved(body, start, times):
 
 
 def test_the_guess_is_the_stable_point_of_the_new_body_and_lies_on_its_line():
-    values = STEPS["Where will ω stop?"].prediction.then.values
+    values = STEPS["Where will ω stop?"].prediction.outcome.values
     body, start = free_body(values), np.array([values["w1"], values["w2"]])
     points = free.equilibria(body, 0.5 * (body.I11 * start[0] ** 2 + body.I22 * start[1] ** 2))
     assert values["I13"] * points.stable[0] + values["I23"] * points.stable[1] == pytest.approx(0.0, abs=1e-14)
@@ -31,8 +31,8 @@ def test_the_guess_is_the_stable_point_of_the_new_body_and_lies_on_its_line():
 
 
 def test_the_patch_grows_then_shrinks_to_about_a_thousandth():
-    values = STEPS["How fast volume is lost"].at.values
-    found = scenes()["singular-measures"].compute(values, {"divergence"}, dragging=False)
+    values = STEPS["How fast volume is lost"].state.values
+    found = scenes()["singular-measures"].compute(values, {"divergence"}, is_preview=False)
     [left] = [float(text.split("= ")[1]) for text in found.quantities() if text.startswith("V(t)/V(0)")]
     assert 0.0009 < left < 0.0014
     # From the middle of the patch: the integral of the divergence along its motion.
@@ -46,8 +46,8 @@ def test_the_patch_grows_then_shrinks_to_about_a_thousandth():
 
 
 def test_the_heavy_body_keeps_one_sense_of_turning_and_reverses_from_the_other():
-    one = scenes()["orbit-diagram"].of(STEPS["A rotation about the vertical"].at.values)
-    wrong = scenes()["orbit-diagram"].of(STEPS["The opposite rotation"].prediction.then.values)
+    one = scenes()["orbit-diagram"].of(STEPS["A rotation about the vertical"].state.values)
+    wrong = scenes()["orbit-diagram"].of(STEPS["The opposite rotation"].prediction.outcome.values)
     assert energy(one.body, one.start) == pytest.approx(energy(wrong.body, wrong.start), abs=1e-12)
     # Up to twice the time span of the picture.
     times = np.linspace(0.0, 2.0 * one.span, 2401)

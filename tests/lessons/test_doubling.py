@@ -14,8 +14,8 @@ STEPS = {step.title: step for step in package_lessons()[NAME].steps}
 
 @pytest.mark.chaotic
 def test_beyond_the_end_no_short_period_is_left_and_other_starts_come_to_the_same_set():
-    assert STEPS["The repeller"].at.values["I23"] == STEPS["Beyond the doublings"].at.values["I23"] > end(None)[1]
-    section = scenes()["orbit-diagram"].of(STEPS["The repeller"].at.values).poincare
+    assert STEPS["The repeller"].state.values["I23"] == STEPS["Beyond the doublings"].state.values["I23"] > end(None)[1]
+    section = scenes()["orbit-diagram"].of(STEPS["The repeller"].state.values).poincare
     orbits = settled(section, 24, 200)
     # The farthest places of each orbit from those of all others, one in a hundred.
     off = [

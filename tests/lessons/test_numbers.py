@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from hess_explorer.lessons import package_lessons, tries
+from hess_explorer.lessons import package_lessons, suggestions
 from hess_explorer.lessons.lesson import LessonStep, StateLink
-from hess_explorer.lessons.reading import without_tries
+from hess_explorer.lessons.reading import without_suggestions
 from hess_explorer.scenes import scenes
 from hess_mechanics.chaplygin_ball.ball_scattering import ball_scattering
 from hess_mechanics.chaplygin_ball.equations import BallBody
@@ -23,8 +23,8 @@ SCENES = {scene.words: scene for scene in reversed(scenes().values())}.values()
 
 def steps_of(scene):
     """Return the text of a scene as a step with its first state, and what can be tried."""
-    lesson = tries().get(scene.name)
-    words = without_tries(scene.words) if lesson else scene.words
+    lesson = suggestions().get(scene.name)
+    words = without_suggestions(scene.words) if lesson else scene.words
     return LessonStep("", words, StateLink(scene.name, scene.defaults())), *(lesson.steps if lesson else ())
 
 
@@ -45,7 +45,7 @@ def test_a_number_in_a_text_is_what_it_is_computed_to_be(name, phrase):
 
 
 def test_the_ball_of_the_scattering_lesson_gives_no_single_cosine():
-    values = package_lessons()["scattering-by-a-nonholonomic-top"].steps[-1].at.values
+    values = package_lessons()["scattering-by-a-nonholonomic-top"].steps[-1].state.values
     body = BallBody(*(values[name] for name in ("I11", "I22", "I13", "I23", "D")))
     phases = np.linspace(-math.pi, math.pi, 16, endpoint=False)
     found = ball_scattering(body, values["theta"], phases, values["h"], 1e-4, "draft")

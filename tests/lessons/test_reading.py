@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from hess_explorer.lessons import package_lessons, tries
+from hess_explorer.lessons import package_lessons, suggestions
 from hess_explorer.lessons.checks import problems_in
 from hess_explorer.lessons.images import MAX_ALL, MAX_ONE, Images
 from hess_explorer.lessons.lesson import Animation, HiddenLayer, LessonError
@@ -44,23 +44,23 @@ def test_a_lesson_is_read_as_it_is_written():
     lesson = read(WHOLE, "mine")
     first, second = lesson.steps
     assert (lesson.name, lesson.title, lesson.minutes) == ("mine", "Two cycles are born", 10.0)
-    assert (first.title, first.text, first.look) == ("Across the line", "Text with $a<b$.", "circle")
+    assert (first.title, first.text, first.enlarged_picture) == ("Across the line", "Text with $a<b$.", "circle")
     assert (first.question, first.answer) == ("Why?", "Because.")
     assert first.animation == Animation("h", 0.2, 1.5, 8.0)
-    assert first.at.values == SCENES["suslov-hess"].defaults() | {"h": 0.2, "f": 0.5}
+    assert first.state.values == SCENES["suslov-hess"].defaults() | {"h": 0.2, "f": 0.5}
     guess = first.prediction
-    assert (guess.source, guess.columns, guess.what) == ("circle-stable", ("phi", "theta"), "point")
-    assert guess.then.values == SCENES["suslov-hess"].defaults() | {"h": 1.5, "f": 0.6}
+    assert (guess.source, guess.columns, guess.kind) == ("circle-stable", ("phi", "theta"), "point")
+    assert guess.outcome.values == SCENES["suslov-hess"].defaults() | {"h": 1.5, "f": 0.6}
     # The control of what is animated is beside the text; another step may name others.
     assert first.controls == ("h",)
     named = "controls: [f, accuracy, f]\npictures: [circle, body]\nhide: {picture: omega, layer: stable}"
     others = read(WHOLE.replace("look: circle", named), "mine")
     assert others.steps[0].controls == ("f", "accuracy")
     assert others.steps[0].pictures == ("circle", "body")
-    assert others.steps[0].hide == HiddenLayer("omega", "data-stable")
-    assert (second.controls, second.hide) == ((), None)
+    assert others.steps[0].hidden_layer == HiddenLayer("omega", "data-stable")
+    assert (second.controls, second.hidden_layer) == ((), None)
     # A step without a state is where the last one has come to.
-    assert second.at == guess.then
+    assert second.state == guess.outcome
 
 
 # Faulty text → the line of the mistake, and part of its message.
@@ -80,9 +80,9 @@ MISTAKES = [
     ("scene=suslov-hess&h=1.5&f=0.6", "scene=scattering&k=1", 12, "the same scene"),
     ("### Question", "### Quiz", 16, "Question and Answer"),
     ("$a<b$", "a\n$$\n\\omgea\n$$", 15, "\\omgea is not a known command"),
-    ("It stays.", "It\nstays $5", 22, "a dollar stands alone"),
+    ("It stays.", "It\nstays $5", 22, "a dollar sign has no counterpart"),
     ("It stays.", "It\n<b>stays</b>.", 22, "'<b>' is HTML"),
-    ("It stays.", "[It](javascript:stays)", 21, "'javascript:stays' leads nowhere"),
+    ("It stays.", "[It](javascript:stays)", 21, "'javascript:stays' has an unknown target"),
     ("It stays.", "[It](circel/stable)", 21, "picture of 'circel/stable' must be one of omega, bifurcation, circle"),
     ("It stays.", "It\n[stays](circle/stabel)", 22, "layer of 'circle/stabel' must be one of"),
     ("It stays.", "It [stays](drag:circle)", 21, "a number to drag must be one of I22"),
@@ -211,7 +211,7 @@ def test_other_images_are_refused_with_their_reason(tmp_path):
         "https://there/y.png": "a file beside the lesson",
         "large.png": "more than 300 kB",
         "drawing.png": "is an SVG: png, jpeg and webp are allowed",
-        "text.png": "none of these: png",
+        "text.png": "in an unknown format: png",
         "none.png": "no such file",
     }.items():
         with pytest.raises(LessonError, match=f"line 21: .*({why})"):
@@ -227,18 +227,18 @@ def test_other_images_are_refused_with_their_reason(tmp_path):
         read(WHOLE.replace("It stays.", "![A wheel](good.png)"), "mine")
 
 
-LESSONS = {lesson.name: lesson for lesson in (*package_lessons().values(), *tries().values())}
+LESSONS = {lesson.name: lesson for lesson in (*package_lessons().values(), *suggestions().values())}
 LINKED = [(lesson, step) for lesson in LESSONS.values() for step in lesson.steps]
 
 
 @pytest.mark.parametrize(("lesson", "step"), LINKED, ids=[f"{one.name}: {step.title}" for one, step in LINKED])
 def test_every_step_is_admitted_unchanged_and_drawn(lesson, step):
-    for place in (step.at, *([step.prediction.then] if step.prediction else [])):
+    for place in (step.state, *([step.prediction.outcome] if step.prediction else [])):
         scene = SCENES[place.scene]
         assert scene.admit(place.values) == (place.values, [])
-    seen = {step.look} if step.look else set(scene.open_pictures)
+    seen = {step.enlarged_picture} if step.enlarged_picture else set(scene.open_pictures)
     seen |= {step.prediction.picture} if step.prediction else set()
-    state = scene.compute(place.values, seen, dragging=False)
+    state = scene.compute(place.values, seen, is_preview=False)
     for view in scene.views:
         if view.name in seen:
             assert view.full_caption(state).title
@@ -249,5 +249,5 @@ def test_every_step_is_admitted_unchanged_and_drawn(lesson, step):
         assert all(len(drawn[column]) for column in step.prediction.columns)
     if step.animation and step.animation.name != "time":
         for value in (step.animation.start, step.animation.end):
-            ends = {**step.at.values, step.animation.name: value}
+            ends = {**step.state.values, step.animation.name: value}
             assert scene.admit(ends) == (ends, [])

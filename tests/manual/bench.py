@@ -92,7 +92,7 @@ def explorer(work):
             SUSLOV.ensemble(work.initial, p, work.times, *limits, ends, steps, times[: len(ends)])
             ends[steps < 0] = math.nan
             return ends[:, 0]
-        found, _ = SUSLOV.cross(start, p, np.eye(5)[4], 0.0, 1, work.times[0], *limits, times, states)
+        found, _ = SUSLOV.crossing(start, p, np.eye(5)[4], 0.0, 1, work.times[0], *limits, times, states)
         return states[: max(found, 0)]
 
     for order in range(8, 25, 2):
@@ -238,7 +238,9 @@ def exact(work, digits, rows=...):
     if work.name == "D":
         times, states = np.empty(MOST_CROSSINGS), np.empty((MOST_CROSSINGS, 5))
         limits = 20, 1e-16, math.inf, MOST_STEPS
-        count, _ = SUSLOV.cross(work.initial[0], np.array(BODY), np.eye(5)[4], 0.0, 1, 2000.0, *limits, times, states)
+        count, _ = SUSLOV.crossing(
+            work.initial[0], np.array(BODY), np.eye(5)[4], 0.0, 1, 2000.0, *limits, times, states
+        )
         times = times[:count][rows]
     found = oracle.orbit_in_decimals(SUSLOV, work.initial[0].tolist(), BODY, times.tolist(), digits)
     if work.name == "D":

@@ -34,7 +34,7 @@ def example(scene, trial):
     choices = [spec for spec in scene.specs if isinstance(spec, ChoiceSpec) and spec.name != "accuracy"]
     changed = ({**values, spec.name: one} for values in shown for spec in choices for one in spec.options)
     states = (bare_state(scene.of(values)) for values in (*shown, *changed))
-    return next(state for state in states if trial.applies(state))
+    return next(state for state in states if trial.condition(state))
 
 
 def measured(scene, trial):
@@ -46,7 +46,7 @@ def measured(scene, trial):
             lambda plan: trial.run(state, plan),
             lambda *both: trial.error(state, *both),
             3,
-            trial.alike,
+            trial.shared_setting,
         )
     )
 

@@ -17,13 +17,18 @@ from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.phase_cloud import cloud_of, shell
 from hess_mechanics.dynamics.basin_boundary import ambiguity, coarsest_cells
 from hess_mechanics.dynamics.return_map import section_crossings
-from hess_mechanics.dynamics.shadowing import away_from, errors_in_pixels, lower_median, right_crossings
+from hess_mechanics.dynamics.shadowing import (
+    count_correct_crossings,
+    distances_to_curve,
+    errors_in_pixels,
+    lower_median,
+)
 from hess_mechanics.dynamics.spectrum import lyapunov_exponent
 from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.numerics.accuracy import PLANS, REFERENCE, Kind
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.suslov_section import SuslovSection
-from hess_mechanics.suslov_hess.mode_locking import lock_boundary
+from hess_mechanics.suslov_hess.mode_locking import tongue_boundary
 from hess_mechanics.suslov_hess.rotation_number import Torus, rotation_errors, rows, rows_error, values_at
 from support.deviations import deviations
 
@@ -73,14 +78,14 @@ def followed():
 def test_up_to_the_crossing_that_is_named_an_orbit_is_where_it_is_drawn(followed, name):
     rows, truth = followed
     own, tight = rows[name]
-    counts = right_crossings(own, tight, PIXELS, PERIODS)
+    counts = count_correct_crossings(own, tight, PIXELS, PERIODS)
     worst = [
         errors_in_pixels(one[:count], exact[:count], PIXELS, PERIODS).max(initial=0.0)
         for one, exact, count in zip(own, truth, counts, strict=True)
     ]
     assert within_a_factor_of_ten(worst, np.full(len(worst), 0.5))
     # The estimate is not merely cautious: for most lost orbits it is within one crossing of the true one.
-    true_counts = np.array(right_crossings(own, truth, PIXELS, PERIODS))
+    true_counts = np.array(count_correct_crossings(own, truth, PIXELS, PERIODS))
     lost = true_counts < np.array([min(map(len, pair)) for pair in zip(own, truth, strict=True)])
     assert lost.sum() > 100
     assert deviations(np.abs(np.array(counts) - true_counts)[lost] <= 1, 0.5) > 5.0
@@ -89,7 +94,7 @@ def test_up_to_the_crossing_that_is_named_an_orbit_is_where_it_is_drawn(followed
 def test_the_count_ends_with_the_first_point_that_is_wrong():
     exact = np.zeros((5, 2))
     wrong = np.array([[0.0, 0.0], [0.4, 0.0], [0.3, 0.5], [0.0, 0.0], [0.0, 0.0]])
-    assert right_crossings([wrong, exact, exact[:3]], [exact] * 3, (1.0, 1.0)) == (2, 5, 3)
+    assert count_correct_crossings([wrong, exact, exact[:3]], [exact] * 3, (1.0, 1.0)) == (2, 5, 3)
     assert lower_median((9, 2, 5)) == 5
     assert lower_median((9, 2)) == 2
     assert lower_median(()) is None
@@ -192,7 +197,7 @@ def test_the_error_of_a_map_of_rotation_numbers_is_that_of_nearly_all_its_cells(
 # ---- boundaries -------------------------------------------------------------------------------------------------
 
 
-true_boundary = cache(lambda a: lock_boundary(a, REFERENCE, 1500))
+true_boundary = cache(lambda a: tongue_boundary(a, REFERENCE, 1500))
 
 
 @mark.parametrize("name", PLANS[Kind.CURVE])
@@ -202,8 +207,8 @@ def test_the_boundary_of_the_lock_zone_lies_within_the_promised_pixels(a, name):
     exact = true_boundary(a)
     points = plan.side(48)
     scale = 600.0 / np.array([max(4.0, exact[:, 0].max()) + 1.0, 2.0 * max(3.0, exact[:, 1].max())])
-    line, curve = lock_boundary(a, plan.level, points) * scale, exact * scale
-    assert away_from(curve, line).max() <= plan.promise
+    line, curve = tongue_boundary(a, plan.level, points) * scale, exact * scale
+    assert distances_to_curve(curve, line).max() <= plan.promise
 
 
 # ---- clouds -----------------------------------------------------------------------------------------------------

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hess_explorer.offline.pages import page_family
-from hess_explorer.offline.plan import MOST_STATES, family, read_slider, slider_of, values_across
+from hess_explorer.offline.plan import MAX_STATES, family, read_slider, slider_of, values_across
 from hess_explorer.scenes import scenes
 from hess_mechanics.errors import InvalidParameter
 
@@ -48,13 +48,13 @@ def test_lines_go_through_the_state_and_a_grid_has_all_combinations():
     steps = np.abs(np.diff(np.array(grid.points[1:]), axis=0)).max(axis=1)
     assert steps.max() <= 0.5
     assert grid.values((2.0, 0.4)) == {**BASE, "h": 2.0, "f": 0.4}
-    moving = family(SCENE, BASE, [h], moving={"accuracy": "draft"})
-    assert moving.values(moving.points[0])["accuracy"] == "standard"
-    assert moving.values((2.0,))["accuracy"] == "draft"
+    drag_values = family(SCENE, BASE, [h], drag_values={"accuracy": "draft"})
+    assert drag_values.values(drag_values.points[0])["accuracy"] == "standard"
+    assert drag_values.values((2.0,))["accuracy"] == "draft"
 
 
 def test_the_number_of_states_is_bounded():
-    with pytest.raises(InvalidParameter, match=f"at most {MOST_STATES}"):
+    with pytest.raises(InvalidParameter, match=f"at most {MAX_STATES}"):
         page_family("h=1.2&f=0.3", ["h=0:3:400", "f=0:1:100"], grid=True)
 
 

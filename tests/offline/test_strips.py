@@ -31,7 +31,7 @@ def add(strip, steps=None, **sources):
     wire = Wire()
     for name, columns in sources.items():
         wire.put(name, columns)
-    wire.say("status", "λ = 1")
+    wire.set_text("status", "λ = 1")
     strip.add(*wire.pack(), steps or {})
 
 

@@ -7,7 +7,7 @@ from support.page import VISITOR, own_tab
 IN_SIGHT = ".gallery:not(.away) .picture:visible"
 
 
-def in_sight(page):
+def visible_trials(page):
     return page.locator(IN_SIGHT).evaluate_all("cells => cells.map((cell) => cell.dataset.name)")
 
 
@@ -25,7 +25,7 @@ def test_a_first_visitor_sees_two_dark_pictures_then_others_then_the_page_and_ne
         for number, pictures in enumerate(ACTS, start=1):
             sentences.append(introduction.locator(".title").text_content())
             page.locator(f"{IN_SIGHT}.picture-{pictures[-1]}").wait_for()
-            assert sorted(in_sight(page)) == sorted(pictures)
+            assert sorted(visible_trials(page)) == sorted(pictures)
             for one in (introduction, *page.locator(IN_SIGHT).all()):
                 # Edges lie between pixels.
                 expect(one).to_be_in_viewport(ratio=0.997)

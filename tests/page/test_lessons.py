@@ -9,7 +9,7 @@ from PIL import Image
 from playwright.sync_api import expect
 
 from hess_explorer.headless.browser import wait_ready
-from hess_explorer.lessons import package_lessons, tries
+from hess_explorer.lessons import package_lessons, suggestions
 from hess_explorer.lessons.collection import read_paths
 from hess_explorer.lessons.reading import read
 from support.board import SCENES
@@ -34,20 +34,20 @@ def here(explorer):
 def guess(explorer, prediction, press):
     """Click or tap in the picture."""
     left, top, right, bottom = frame(explorer, prediction.picture)
-    shares = [(0.2, 0.7), (0.35, 0.4), (0.8, 0.4)] if prediction.what == "curve" else [(0.3, 0.4)]
+    shares = [(0.2, 0.7), (0.35, 0.4), (0.8, 0.4)] if prediction.kind == "curve" else [(0.3, 0.4)]
     for x, y in shares:
         press(left + x * (right - left), top + y * (bottom - top))
 
 
 def test_what_can_be_tried_is_done_for_one(explorer):
-    page, steps = explorer.page, tries()[HESS].steps
+    page, steps = explorer.page, suggestions()[HESS].steps
     explorer.open_text()
     assert page.locator(".words").get_by_text("Try this").count() == 0
     for number, step in enumerate(steps):
         assert page.locator(".tries h3").inner_text() == f"Try this: {step.title}"
         assert page.locator(".tries .count").inner_text() == f"{number + 1} / {len(steps)}"
         explorer.change(page.locator(".param-try").click)
-        assert here(explorer)[1] == step.at.values
+        assert here(explorer)[1] == step.state.values
         page.locator(".param-try-next").click()
     assert page.locator(".tries .count").inner_text() == f"1 / {len(steps)}"
 
@@ -68,7 +68,7 @@ def test_a_link_to_a_step_that_is_not_there_is_one_to_the_last_and_a_lesson_is_c
     page.locator(".lesson-menu > summary").click()
     assert page.locator(".lesson-menu li").count() == len(lessons)
     explorer.change(page.locator(f".param-lesson-{CYCLES}").click)
-    assert here(explorer)[1:4] == (lessons[CYCLES].steps[0].at.values, CYCLES, "1")
+    assert here(explorer)[1:4] == (lessons[CYCLES].steps[0].state.values, CYCLES, "1")
 
 
 CYCLES = "limit-cycles-and-locking"
@@ -131,7 +131,7 @@ def test_a_lesson_in_a_narrow_and_a_wide_window_keeps_text_slider_and_pictures_i
     beside, column = control.locator(".hand"), page.locator(".controls .param-h .hand")
     explorer.change(lambda: beside.press("ArrowRight"))
     moved = float(explorer.wait_url(h=column.input_value())["h"])
-    assert moved > steps[9].at.values["h"]
+    assert moved > steps[9].state.values["h"]
     assert beside.input_value() == column.input_value()
     # So it is when a number in the text is dragged or moved by a key.
     word, number = page.locator(".lesson .drag"), page.locator(".lesson .drag .scrub")
@@ -180,7 +180,10 @@ def test_images_tables_and_links_of_own_lessons(browser, tmp_path):
         assert page.locator(".lesson .of").inner_text() == "Lesson b"
         assert page.locator(".lesson th").first.inner_text() == "Lesson b"
         image = page.locator(".lesson img")
-        assert image.evaluate("item => item.decode().then(() => [item.naturalWidth, item.naturalHeight])") == [40, 30]
+        assert image.evaluate("item => item.decode().then(() => [item.naturalWidth, item.naturalHeight])") == [
+            40,
+            30,
+        ]
         page.evaluate("window.isSame = true")
         tab.change(links.filter(has_text="further").click)
         assert tab.wait_url(h=1.5)["lesson"] == "b"
@@ -217,8 +220,8 @@ def test_what_is_done_by_hand_is_recorded_and_replayed(explorer):
         page.locator(".param-save-recording").click()
     assert page.locator(".recording").is_hidden()
     lesson = read(Path(download.value.path()).read_text(encoding="utf-8"), "recorded")
-    assert [(step.at.scene, step.at.values) for step in lesson.steps] == states
-    assert [step.look for step in lesson.steps] == ["circle", "circle", "circle", "omega", ""]
+    assert [(step.state.scene, step.state.values) for step in lesson.steps] == states
+    assert [step.enlarged_picture for step in lesson.steps] == ["circle", "circle", "circle", "omega", ""]
     assert [step.controls for step in lesson.steps] == [(), ("h",), ("phi0",), (), ()]
     explorer.change(explorer.tell, "restore", urlencode({"scene": states[0][0], **states[0][1]}))
     assert here(explorer)[:2] == states[0]
@@ -331,15 +334,15 @@ def test_a_lesson_is_given_from_start_to_end(request, name, place):
     if place == "present":
         tab.tell("present")
     for number, step in enumerate(lesson.steps, 1):
-        title, count, (lines, seen), controls, boxes, wide = page.evaluate(SHOWN, step.look)
+        title, count, (lines, seen), controls, boxes, wide = page.evaluate(SHOWN, step.enlarged_picture)
         assert (title, count) == (step.title, f"{number} / {len(lesson.steps)}")
-        assert here(tab) == (step.at.scene, step.at.values, name, str(number))
+        assert here(tab) == (step.state.scene, step.state.values, name, str(number))
         assert seen >= min(MOST_LINES, lines), title
         assert controls == len(step.controls)
         for left, top, right, bottom in boxes:
             assert 0 <= left < right <= width, title
             assert 0 <= top < bottom <= height, title
-        assert wide >= 240 or not step.look
+        assert wide >= 240 or not step.enlarged_picture
         if step.prediction:
             wanted, axes = [step.prediction.picture, step.prediction.source], tab.axes(step.prediction.picture)
             # No caption tells the answer.
@@ -347,10 +350,10 @@ def test_a_lesson_is_given_from_start_to_end(request, name, place):
             assert (page.evaluate(SEEN, wanted), captions.count()) == ([False], 0)
             guess(tab, step.prediction, press)
             # The picture has taken none of the clicks.
-            assert here(tab)[1] == step.at.values
+            assert here(tab)[1] == step.state.values
             read_on(tab)
             tab.change(page.keyboard.press, "PageDown")
-            assert here(tab)[1] == step.prediction.then.values
+            assert here(tab)[1] == step.prediction.outcome.values
             assert page.evaluate(SEEN, wanted) == [True]
             assert_could_be_guessed(tab, step.prediction, axes)
             said = page.locator(".lesson .said")

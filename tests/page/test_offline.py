@@ -180,7 +180,7 @@ def assert_given(page, lesson):
     """Go through all steps; guess where a step asks, move the sliders that it names."""
     for number, step in enumerate(lesson.steps):
         expect(page.locator(".lesson .count")).to_have_text(f"{number + 1} / {len(lesson.steps)}")
-        expect(page.locator("html")).to_have_attribute("data-scene", step.at.scene)
+        expect(page.locator("html")).to_have_attribute("data-scene", step.state.scene)
         for turn in page.locator("canvas[data-turn]").evaluate_all("all => all.map(({ dataset }) => dataset.turn)"):
             assert turn == "0.6000 0.3500"
         if step.prediction is not None:
@@ -190,7 +190,7 @@ def assert_given(page, lesson):
             change(page, page.keyboard.press, "PageDown")
             expect(page.locator(".said")).not_to_be_empty()
             # The state in which the truth is shown.
-            there, wanted = dict(parse_qsl(address_of(page))), step.prediction.then.values
+            there, wanted = dict(parse_qsl(address_of(page))), step.prediction.outcome.values
             assert {name: there.get(name, "") for name in wanted} == {name: str(one) for name, one in wanted.items()}
         for name in step.controls:
             slider = page.locator(f".step-controls .param-{name} .hand")

@@ -18,9 +18,9 @@ from support.room import Follower
 LESSON = next(
     one
     for one in package_lessons().values()
-    if any(step.prediction and step.prediction.what == "point" for step in one.steps)
+    if any(step.prediction and step.prediction.kind == "point" for step in one.steps)
 )
-STEP = next(i for i, step in enumerate(LESSON.steps, 1) if step.prediction and step.prediction.what == "point")
+STEP = next(i for i, step in enumerate(LESSON.steps, 1) if step.prediction and step.prediction.kind == "point")
 ASKED = LESSON.steps[STEP - 1].prediction
 # Guesses of others, as shares of the axes.
 OTHERS = [(0.2, 0.3), (0.7, 0.8)]

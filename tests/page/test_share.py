@@ -4,7 +4,7 @@ from urllib.parse import parse_qsl, quote, urlsplit
 
 from hess_explorer.headless.browser import wait_ready
 from hess_explorer.scenes import scenes
-from hess_explorer.server.qr_code import MOST
+from hess_explorer.server.qr_code import MAX_LENGTH
 from support.accessible import assert_accessible
 from support.barcode import read
 from support.page import ALL, HESS, own_tab, wait_frames
@@ -97,7 +97,7 @@ def test_an_embedded_page_has_what_its_address_names_and_nonsense_is_harmless(br
 
 
 def test_a_code_holds_the_longest_link_that_it_may_and_says_so_of_a_longer_one(tab):
-    text, request = f"{tab.base}/?".ljust(MOST, "a"), tab.page.request
+    text, request = f"{tab.base}/?".ljust(MAX_LENGTH, "a"), tab.page.request
     # Five pixels for each of its 145 modules and the margin.
     page = tab.page.context.new_page()
     page.set_viewport_size({"width": 765, "height": 765})
@@ -107,4 +107,4 @@ def test_a_code_holds_the_longest_link_that_it_may_and_says_so_of_a_longer_one(t
     for wrong in (text + "a", ""):
         refused = request.get(f"{tab.base}/qr.svg?text={quote(wrong)}")
         assert refused.status == 400
-        assert f"at most {MOST}" in refused.text() and f"{len(wrong)} characters" in refused.text()
+        assert f"at most {MAX_LENGTH}" in refused.text() and f"{len(wrong)} characters" in refused.text()

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hess_explorer.protocol.expressions import FUNCTIONS, MOST, NotANumber, evaluate
+from hess_explorer.protocol.expressions import FUNCTIONS, MAX_LENGTH, NotANumber, evaluate
 from support.thorough import examples
 
 
@@ -40,8 +40,8 @@ def test_an_expression_has_its_value(text, exact):
         "__import__",
         "lambda: 1",
         "2j",
-        "(" * MOST,
-        "1" + "+1" * MOST,
+        "(" * MAX_LENGTH,
+        "1" + "+1" * MAX_LENGTH,
         "１",
     ],
 )

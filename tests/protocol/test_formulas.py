@@ -5,7 +5,7 @@ import random
 import numpy as np
 from pytest import approx, mark, raises
 
-from hess_explorer.protocol.formulas import MOST, drive, polynomial
+from hess_explorer.protocol.formulas import MAX_LENGTH, drive, polynomial
 from hess_explorer.protocol.specs import Formula
 from hess_mechanics.errors import InvalidParameter
 
@@ -40,7 +40,7 @@ def test_a_formula_is_its_coefficients():
         ("2^g1", "not a whole number"),
         ("g4", "not a polynomial: use numbers, g1, g2, g3"),
         ("1e9*g1", "larger than 1e"),
-        ("g1+" * MOST, f"longer than {MOST}"),
+        ("g1+" * MAX_LENGTH, f"longer than {MAX_LENGTH}"),
     ],
 )
 def test_what_is_no_polynomial_is_refused(text, message):

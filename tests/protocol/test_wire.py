@@ -81,13 +81,13 @@ def test_what_was_packed_is_not_sent_again_and_is_not_changed_by_what_comes():
     wire = Wire()
     wire.put("orbit", {"x": np.arange(5.0)})
     wire.put_ranges("omega", (0.0, 1.0), (0.0, 1.0))
-    wire.say("status", "first")
+    wire.set_text("status", "first")
     wire.caption("omega", {"title": "Orbit", "verdict": "", "numbers": "h = 1"})
     wire.show_number("h", 1.0, (0.0, 2.0, 0.1))
     wire.show_choice("accuracy", "draft")
     tree, _ = wire.pack()
     assert wire.pack() == ({"sources": {}, "ranges": {}, "texts": {}, "captions": {}, "controls": {}}, b"")
-    wire.say("status", "second")
+    wire.set_text("status", "second")
     assert tree["texts"] == {"status": "first"}
     assert tree["controls"]["h"] == [1.0, 0.0, 2.0, 0.1]
     # A disabled number is sent with the flag True.

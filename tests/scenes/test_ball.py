@@ -144,8 +144,10 @@ def test_the_numbers_in_the_caption_of_the_section_are_those_of_its_points(name)
     plain = kept and view.values["b3"] == 0.0
     symmetric = kept and view.values["I11"] == view.values["I22"] and view.values["b1"] == view.values["b2"] == 0.0
     said = view.text["returns"]
-    assert ("One point: every orbit that returns closes. Proved by the symmetry γ₃ → −γ₃, t → −t" in said) == plain
-    assert ("A curve: there is another integral. ω₁γ₁ + ω₂γ₂ is constant." in said) == symmetric
+    assert (
+        "A single point: every returning orbit is periodic. Proved by the symmetry γ₃ → −γ₃, t → −t" in said
+    ) == plain
+    assert ("A curve, because of an additional integral. ω₁γ₁ + ω₂γ₂ is constant." in said) == symmetric
     if symmetric:
         w1, w2, g1, g2, _ = view.result.orbit.path.states[0]
         assert view.quantities("ω₁γ₁ + ω₂γ₂ = #, an integral") == approx([w1 * g1 + w2 * g2], rel=6e-4)

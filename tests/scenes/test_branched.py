@@ -103,11 +103,11 @@ def test_the_range_is_within_what_is_possible_and_about_the_value_where_none_is_
 
 def test_while_a_slider_is_held_only_what_is_known_is_drawn():
     scene, values = SCENES["ball-section"], example("ball-section")
-    known, same = (View(scene, values, seen=["branch"], dragging=dragging) for dragging in (False, True))
+    known, same = (View(scene, values, seen=["branch"], is_preview=is_preview) for is_preview in (False, True))
     for one, other in zip(*(view.curve("branch-branch-attracts") for view in (same, known)), strict=True):
         assert len(one) == len(other) > 20
         assert one == approx(other)
-    moved = View(SCENES["ball-section"], {**values, "b3": 0.71}, seen=["branch"], dragging=True, whole=False)
+    moved = View(SCENES["ball-section"], {**values, "b3": 0.71}, seen=["branch"], is_preview=True, whole=False)
     assert moved.text["branch"].split("\n")[1] == "A periodic orbit is computed when the slider is released."
     assert moved.result.branch.branches == []
     assert moved.report.todo == ()

@@ -37,8 +37,8 @@ def test_visits_are_the_histogram_of_the_accurate_crossings_of_a_regular_orbit()
     # One point in fifty at the edge of a cell may lie in the next one, as 400 points are computed at a coarser level.
     assert np.abs(found.counts - counted.T).sum() <= 2 * 400 / 50
     more = visits(state.poincare, WHOLE, (32, 20), found.ends, 400, True, density._LEVEL)
-    assert np.array_equal(more.after(found).counts, found.counts + more.counts)
-    assert more.after(found).points == 800
+    assert np.array_equal(more.combine(found).counts, found.counts + more.counts)
+    assert more.combine(found).points == 800
 
 
 @pytest.mark.parametrize("name", ["suslov", "ball-section", "quartic", "euler-poisson"])

@@ -102,7 +102,7 @@ def test_curves_that_do_not_go_round_have_no_rotation_number():
 
 
 def test_a_drag_shows_the_section_at_once_with_fewer_orbits():
-    view = EulerPoisson({"h": 41.37}, dragging=True, seen={"section", "exponent"})
+    view = EulerPoisson({"h": 41.37}, is_preview=True, seen={"section", "exponent"})
     assert view.report.todo == ()
     assert 0 < len(view.points("first")) + len(view.points("second")) <= 16 * 40
     assert "released" in view.text["exponent"]

@@ -33,8 +33,8 @@ from support.board import (
     Browser,
     contents,
     description,
-    elsewhere,
     flat,
+    other_sheets,
     plots_of,
     shown,
     variant,
@@ -76,7 +76,7 @@ every_preset = pytest.mark.parametrize(
 def equations_are_compiled():
     """Compile the equations of forms of *Your own body*, which the page does in the background."""
     scene = SCENES["own-body"]
-    for values in ({}, elsewhere(scene), *(preset.values for one, preset in SHOWN if one is scene)):
+    for values in ({}, other_sheets(scene), *(preset.values for one, preset in SHOWN if one is scene)):
         state = scene.of({**scene.defaults(), **values})
         assert not state.is_compiled or not state.work.todo
         for task in state.work.todo:
@@ -144,7 +144,7 @@ def test_what_is_said_to_follow_does(name, parameter, pictures):
     near = values[parameter] + max(step, (high - low) / 20) * (1 if values[parameter] < (low + high) / 2 else -1)
 
     def columns(changes):
-        state = scene.compute({**values, **changes}, pictures.split(), dragging=True)
+        state = scene.compute({**values, **changes}, pictures.split(), is_preview=True)
         return {
             view.name: {
                 source: state.sources[source]
@@ -230,7 +230,7 @@ def test_a_state_looks_the_same_whatever_was_shown_before(scene, preset):
     known = with_known_axes(scene, found)
     first, board = Board(scene), Board(scene)
     report = first.show(found)
-    shown(scene, {**elsewhere(scene), **OTHERS.get(scene.origin or scene.name, {})}, board)
+    shown(scene, {**other_sheets(scene), **OTHERS.get(scene.origin or scene.name, {})}, board)
     before = dict(board.ranges)
     again = board.show(found)
     # Marks across a picture are as long as its axes, and labels find their places within them.
@@ -262,7 +262,7 @@ def test_axes_stay_while_a_slider_is_held_and_fit_when_it_is_let_go(scene):
 
     board.show(state)
     first = axes()
-    for values in (elsewhere(scene), {**scene.defaults(), **OTHERS.get(scene.origin or scene.name, {})}):
+    for values in (other_sheets(scene), {**scene.defaults(), **OTHERS.get(scene.origin or scene.name, {})}):
         before = dict(board.ranges)
         shown(scene, values, board, hold_axes=True)
         assert board.ranges == before
@@ -280,7 +280,7 @@ def test_axes_stay_while_a_slider_is_held_and_fit_when_it_is_let_go(scene):
 def test_a_stage_that_fails_shows_the_sentence_and_nothing_of_another_state(scene):
     board, _ = shown(scene, scene.defaults())
     before = contents(board.sources)
-    shown(scene, elsewhere(scene), board)
+    shown(scene, other_sheets(scene), board)
     after = contents(board.sources)
     depends = {name for name in before if before[name] != after[name]}
     assert len(depends) > 3 or not at_once(scene)
@@ -318,17 +318,17 @@ def somewhere(spec):
     ).map(lambda value: min(max(value, spec.bounds[0]), spec.bounds[1]))
 
 
-def in_sight(scene):
+def visible_trials(scene):
     """All pictures, as mostly, or some of them."""
     return st.one_of(st.just(set(scene.pictures)), st.sets(st.sampled_from(scene.pictures)))
 
 
-def assert_within_the_axes(board, in_sight):
+def assert_within_the_axes(board, visible_trials):
     """Assert that new lines and markers lie inside their picture, and are positive on logarithmic axes."""
     seen = set()
     for plot, figure in plots_of(board.scene.name).items():
         # A hidden plot keeps its axes, though a track that it shares may be sent for another picture.
-        if plot not in in_sight:
+        if plot not in visible_trials:
             continue
         x0, x1, y0, y1 = board.ranges[plot]
         for kind, x, y, name in figure.glyphs:
@@ -347,13 +347,13 @@ def assert_within_the_axes(board, in_sight):
     return seen
 
 
-def assert_drawn(scene, values, seen, dragging):
+def assert_drawn(scene, values, seen, is_preview):
     """Any values are admitted, computed and drawn: finite numbers, in the pictures' axes, and words beside them."""
     board = Board(scene)
     admitted, _ = scene.admit(values)
     board.texts.clear()
     try:
-        state = scene.compute(admitted, seen, dragging)
+        state = scene.compute(admitted, seen, is_preview)
         report = board.show(state)
     except ModelError as error:
         # Every state of the Suslov–Hess case can be computed.
@@ -363,7 +363,7 @@ def assert_drawn(scene, values, seen, dragging):
     assert_within_the_axes(board, seen)
     assert len(board.fresh) > 3 or set(seen) != set(scene.pictures)
     # While a slider is held an exponent waits, and then until it is computed.
-    assert board.fresh or not seen or dragging or report.todo
+    assert board.fresh or not seen or is_preview or report.todo
     said = dict(board.texts)
     assert re.fullmatch(r"[\d,]*", said.pop("signs", ""))
     # Names of the pictures that show a part.
@@ -382,18 +382,18 @@ def assert_drawn(scene, values, seen, dragging):
         assert 0.0 < orbit["t"][-1] <= (closed.time if closed else admitted.get("span", inf)) * (1.0 + 1e-6)
 
 
-@given(data=st.data(), dragging=st.booleans())
-def test_every_admissible_state_is_computed_and_drawn_without_a_number_that_is_none(data, dragging):
+@given(data=st.data(), is_preview=st.booleans())
+def test_every_admissible_state_is_computed_and_drawn_without_a_number_that_is_none(data, is_preview):
     values = {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in HESS.specs}
-    assert_drawn(HESS, values, data.draw(in_sight(HESS), label="in sight"), dragging)
+    assert_drawn(HESS, values, data.draw(visible_trials(HESS), label="in sight"), is_preview)
 
 
 @pytest.mark.parametrize("scene", [scene for scene in OWN if scene is not HESS], ids=lambda scene: scene.name)
 @settings(max_examples=examples(1))
-@given(data=st.data(), dragging=st.booleans())
-def test_an_admissible_state_of_the_other_scenes_is_drawn_whole_or_refused_with_a_sentence(scene, data, dragging):
+@given(data=st.data(), is_preview=st.booleans())
+def test_an_admissible_state_of_the_other_scenes_is_drawn_whole_or_refused_with_a_sentence(scene, data, is_preview):
     values = {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in scene.specs}
-    assert_drawn(scene, values, data.draw(in_sight(scene), label="in sight"), dragging)
+    assert_drawn(scene, values, data.draw(visible_trials(scene), label="in sight"), is_preview)
 
 
 @settings(max_examples=examples(3))
@@ -401,7 +401,7 @@ def test_an_admissible_state_of_the_other_scenes_is_drawn_whole_or_refused_with_
 def test_the_errors_of_every_admissible_state_are_computed_and_drawn_too(data):
     values = {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in ACCURACY.specs}
     # Under a drag: without SciPy's methods, which take long.
-    assert_drawn(ACCURACY, values, data.draw(in_sight(ACCURACY), label="in sight"), True)
+    assert_drawn(ACCURACY, values, data.draw(visible_trials(ACCURACY), label="in sight"), True)
 
 
 FEW = {"orbits": 4.0, "count": 20.0, "long": 20.0, "span": 5.0}
@@ -554,7 +554,7 @@ def test_two_sessions_share_nothing_but_results():
 @pytest.fixture
 def quick(monkeypatch):
     """Without the methods of SciPy."""
-    monkeypatch.setattr(precision.mechanics, "others_take_long", lambda *_: True)
+    monkeypatch.setattr(precision.mechanics, "scipy_takes_long", lambda *_: True)
 
 
 def unfolded(scene, sources):
@@ -609,9 +609,9 @@ def test_from_any_scene_to_any_other_and_back_everything_is_of_the_state():
         whole = Board(scene)
         shown(scene, browser.session.values, whole)
         assert unfolded(scene, browser.data) == unfolded(scene, whole.sources), name
-        in_sight = scene.open_pictures
-        assert {picture: browser.screen.ranges.get(picture) for picture in in_sight} == {
-            picture: whole.ranges.get(picture) for picture in in_sight
+        visible_trials = scene.open_pictures
+        assert {picture: browser.screen.ranges.get(picture) for picture in visible_trials} == {
+            picture: whole.ranges.get(picture) for picture in visible_trials
         }, name
 
 
@@ -737,7 +737,7 @@ def test_what_is_computed_behind_an_answer_begins_when_that_is_made(monkeypatch)
 @pytest.mark.parametrize(
     "where, opening",
     [
-        *((where, True) for where in ("limits", "compute", "idle")),
+        *((where, True) for where in ("limits", "compute", "idle_values")),
         *((where, False) for where in ("admit", "adjustments", "limits", "compute")),
     ],
 )

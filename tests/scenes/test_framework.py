@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 import pytest
 
-from hess_explorer.protocol.specs import Controlled
+from hess_explorer.protocol.specs import ControlSpec
 from hess_explorer.scenes.framework.scene import Motion, Scene, State
 from hess_explorer.scenes.framework.sliders import accuracy_level, number, redeclare, specs_of
 from hess_explorer.scenes.speed_accuracy import speed_and_accuracy
@@ -75,12 +75,12 @@ def test_no_name_of_a_scene_hides_one_of_the_scene_that_looks_into_it():
     assert shown.has_motion
     assert not looking.has_motion
     values = {**looking.defaults(), "first": 1.5, "accuracy": "precise"}
-    state = looking.of(values, visible=["a"], dragging=True)
+    state = looking.of(values, visible=["a"], is_preview=True)
     assert [*state.status()] == ["precise chosen"]
     assert state.precision.motion.duration == 1.5
     assert (state.base.chosen, state.base.quantities()) == ("mine", ["mine"])
     assert state.work is state.base.work
-    assert (state.dragging, state.visible) == (True, frozenset({"a"}))
+    assert (state.is_preview, state.visible) == (True, frozenset({"a"}))
     assert looking.admit({**values, "first": 20.0}) == shown.admit({**values, "first": 20.0})
 
 
@@ -112,7 +112,7 @@ def test_the_ring_of_the_suslov_hess_case_fills_its_frame(I22, I23, h):
 def test_a_cockpit_has_few_controls_outside_computation(name):
     """The choices of a chart show only with the chart."""
     scene = SCENES[name]
-    groups = [spec.group for spec in scene.specs if isinstance(spec, Controlled)]
+    groups = [spec.group for spec in scene.specs if isinstance(spec, ControlSpec)]
     assert sum(group in ("Body", "State") for group in groups) <= 12
     assert {*groups} <= {"Body", "State", "Computation", "Swarm", "Chart"}
     assert len(scene.essential) <= 5

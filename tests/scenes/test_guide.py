@@ -52,7 +52,7 @@ def test_the_example_shows_a_section_and_an_orbit(scene):
 
 def test_a_click_in_its_section_starts_the_orbit_there(scene):
     moved = View(scene, View(scene, {}, whole=False).stage.pick("section", 0.5, 2.0), whole=False)
-    assert moved.result.section.aim == approx((0.5, 2.0))
+    assert moved.result.section.start_point == approx((0.5, 2.0))
 
 
 def test_each_part_is_in_the_table_of_the_guide():

@@ -59,7 +59,7 @@ def test_at_first_a_section_has_the_beginnings_of_all_its_orbits(name):
     assert whole.section.points().reshape(20, 45, 2)[:, :8] == approx(begun, abs=1e-5)
     # The chosen orbit is there at once.
     assert len(first.section.chosen_points) == 45
-    held = View(scenes()[name], values, dragging=True)
+    held = View(scenes()[name], values, is_preview=True)
     assert (held.report.todo, len(held.result.section.chosen_points)) == ((), 30)
     # At the draft, whose first points are the same to the eye, but for an orbit or two that part fast.
     drawn = held.result.section.points().reshape(20, 30, 2)[:, :3]

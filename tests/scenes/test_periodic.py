@@ -33,9 +33,9 @@ PICTURES = {
 
 
 @cache
-def shown(name, periodic, *given, dragging=False):
+def shown(name, periodic, *given, is_preview=False):
     values = {**LIGHT[name], **dict(given), "periodic": periodic}
-    return View(scenes()[name], values, seen=PICTURES[name], dragging=dragging)
+    return View(scenes()[name], values, seen=PICTURES[name], is_preview=is_preview)
 
 
 def drawn(view):
@@ -54,7 +54,7 @@ def test_a_manifold_ends_where_the_map_jumps_and_no_line_is_drawn_across():
         assert np.hypot(*np.diff(curve.points, axis=0).T).max() <= 10.0 * pixel * (1.0 + 1e-9)
     for curve in ends:
         # Further on by a hundredth of the return it is somewhere else.
-        before, after = curve.at(curve.parameters[-1]), curve.at(curve.parameters[-1] + 0.01)
+        before, after = curve.point_at(curve.parameters[-1]), curve.point_at(curve.parameters[-1] + 0.01)
         assert difference(curve.turns, before, curve.points[-1]) == approx([0.0, 0.0], abs=1e-6)
         assert np.hypot(*difference(curve.turns, after, before)) > 0.2
 
@@ -77,8 +77,8 @@ def test_without_one_nothing_is_said_or_drawn_of_it(name):
     assert drawn(view) == set()
     said = [*view.text.values(), *view.report.quantities, *view.report.notes, view.report.status]
     assert not any(word in text for text in said for word in ("Period ", "periodic orbit", "manifold:", "Newton"))
-    assert scene.idle({**scene.defaults(), **LIGHT[name]})["reach"] == 5.0
-    assert "reach" not in scene.idle({**scene.defaults(), "periodic": "period 1"})
+    assert scene.idle_values({**scene.defaults(), **LIGHT[name]})["reach"] == 5.0
+    assert "reach" not in scene.idle_values({**scene.defaults(), "periodic": "period 1"})
     # An example has none, whatever was chosen before.
     assert all("periodic" in scene.example(one) for one in scene.presets)
 
@@ -110,7 +110,7 @@ def test_before_it_is_known_the_caption_says_so_and_the_chosen_orbit_is_shown():
 
 
 def test_while_a_slider_is_held_it_follows_and_its_manifolds_come_later():
-    view = shown("ball-section", "period 1", dragging=True)
+    view = shown("ball-section", "period 1", is_preview=True)
     assert view.text["section"].split("\n")[1].startswith("Period 1, saddle. Multipliers μ = 2.19, 0.4566, error ")
     assert drawn(view) == {"repels"}
     assert "Its manifolds are computed when the slider is released." in view.report.quantities

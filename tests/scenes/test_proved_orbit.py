@@ -136,7 +136,7 @@ def _told(told):
 
 
 def test_nothing_is_proved_in_a_drag_or_unasked(monkeypatch):
-    assert not tasks(shown(HESS, {}, dragging=True))
+    assert not tasks(shown(HESS, {}, is_preview=True))
     assert not tasks(View(HESS, {}, seen=SEEN, whole=False))
     monkeypatch.setitem(sys.modules, "flint", None)
     view = shown(HESS, {"h": 1.43})

@@ -36,7 +36,7 @@ def test_tori_lock_at_0_only_and_no_multiplier_exceeds_that_of_the_pendulum():
 
 def test_the_map_is_coarse_first_and_stays_coarse_under_a_drag():
     values = {"a": 0.512}
-    view = View(SCENE, values, dragging=True)
+    view = View(SCENE, values, is_preview=True)
     assert view.report.todo == ()
     assert "map 75 × 50" in view.report.status
     released = View(SCENE, values)

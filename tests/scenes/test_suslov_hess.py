@@ -12,7 +12,7 @@ from pytest import approx
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.hess_case import proved_statement
 from hess_explorer.views.caption import Caption
-from hess_explorer.views.maps.circle_map import EVENLY, caption
+from hess_explorer.views.maps.circle_map import UNIFORM_HEIGHT, caption
 from hess_mechanics import circle_map, f_max
 from hess_mechanics.numerics.accuracy import REFERENCE
 from hess_mechanics.suslov_hess.bifurcation import curve_point
@@ -27,7 +27,7 @@ SIDE = 2.0 * pi
 def test_the_curve_over_the_bottom_is_the_invariant_density(I23, h, f):
     view = View(SCENE, {"I22": 1.0, "I23": I23, "h": h, "f": f}, seen={"circle"})
     phi, height = view.curve("circle-density")
-    density = (height + pi) / (SIDE * EVENLY * SIDE)
+    density = (height + pi) / (SIDE * UNIFORM_HEIGHT * SIDE)
     measure = invariant_measure(circle_map(I23, h, f, REFERENCE))
     assert density == approx(measure.density(phi), rel=1e-4)
     assert view.quantities("ζ of the invariant density = #") == approx([measure.zeta], rel=1e-3)
@@ -50,7 +50,7 @@ def test_the_shade_of_the_torus_is_the_density_of_its_caption():
     [
         ({"I23": 0.5, "h": 1.5, "f": 0.6}, "|trace| > 2: all motions but one tend to the stable limit cycle."),
         ({"I23": 0.5, "h": 0.5, "f": 1.01563456028796105}, "|trace| = 2: the two cycles have merged."),
-        ({"I23": 0.0, "h": 1.5, "f": 0.0}, "|trace| = 2: every orbit closes."),
+        ({"I23": 0.0, "h": 1.5, "f": 0.0}, "|trace| = 2: every orbit is periodic."),
         ({"I23": 0.5, "h": 1.0, "f": 0.0}, "On the separatrix no motion returns."),
         ({"I23": 0.5, "h": 0.3, "f": 0.0}, "At f = 0 the angle φ jumps"),
         (
@@ -117,7 +117,7 @@ def test_the_caption_of_the_circle_map_says_what_is_proved_when_it_is_found(I23,
             assert low - 1e-12 * low <= number <= high + 1e-12 * high
             assert high - low <= share * high
     # While a slider is held nothing is proved.
-    held = View(SCENE, values, seen={"circle"}, dragging=True)
+    held = View(SCENE, values, seen={"circle"}, is_preview=True)
     assert not any(task.function is proved_statement for task in held.report.todo)
     assert "Proved" not in held.text["circle"]
 

@@ -156,7 +156,7 @@ def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
 def test_a_chaotic_section_has_no_error_and_says_so():
     trial = next(one for one in SUSLOV.trials if one.kind == Kind.SECTION)
     costs = tuple(LevelCost(name, 1.0, nan, True) for name in LEVELS)
-    work = types.SimpleNamespace(dragging=False, need=lambda *_, **__: costs)
+    work = types.SimpleNamespace(is_preview=False, need=lambda *_, **__: costs)
     found = Costs(work, bare_state(SUSLOV.of(SUSLOV.defaults())), (trial,))
     assert found.caption().numbers == "Section has no error to measure: everything is chaotic, or nothing is drawn."
     assert (found.curves, found.rings(), found.level("draft"), [*found.rows()]) == ({}, [], None, [])

@@ -10,8 +10,8 @@ from support.serving import served
 
 
 def test_rooms_and_followers_are_bounded(monkeypatch):
-    monkeypatch.setattr(registry, "MOST_ROOMS", 2)
-    monkeypatch.setattr(room, "MOST_FOLLOWERS", 2)
+    monkeypatch.setattr(registry, "MAX_ROOMS", 2)
+    monkeypatch.setattr(room, "MAX_FOLLOWERS", 2)
 
     async def visit(base):
         async with lecture(base), lecture(base, "first-phone", "second-phone") as (lecturer, one, _):

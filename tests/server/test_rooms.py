@@ -81,7 +81,7 @@ async def test_of_many_states_at_most_two_a_second_are_sent_and_always_the_last_
 @awaited
 async def test_guesses_are_counted_once_for_each_page_and_shown_to_the_lecturer_when_revealed(base):
     step, other = LESSON.steps[STEP - 1 : STEP + 1]
-    at, then, following = (encode(one.scene, one.values) for one in (step.at, step.prediction.then, other.at))
+    at, then, following = (encode(one.scene, one.values) for one in (step.state, step.prediction.outcome, other.state))
 
     def guess(x, step=STEP):
         return {"guess": [[x, 0.5]], "step": step}

@@ -208,7 +208,7 @@ def shown(scene, values, board=None, hold_axes=False):
     return board, board.show(scene.compute(scene.admit(values)[0], scene.pictures, False), hold_axes)
 
 
-def elsewhere(scene):
+def other_sheets(scene):
     """Another state than the default one, that of the example which differs in most numbers."""
     return {**scene.defaults(), **max(scene.presets, key=lambda preset: len(preset.values)).values}
 

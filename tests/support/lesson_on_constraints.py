@@ -19,18 +19,18 @@ def cloud_body(values):
 
 
 def started(step):
-    return step.prediction.then.values["w1"], step.prediction.then.values["w2"]
+    return step.prediction.outcome.values["w1"], step.prediction.outcome.values["w2"]
 
 
 def rate_at_the_end(step):
     """The slope of the logarithm of small volumes at the stable rotation: the divergence there."""
-    values = step.at.values
+    values = step.state.values
     w1, w2 = free.equilibria(cloud_body(values), values["h"]).stable
     return (values["I23"] * w1 / values["I22"] - values["I13"] * w2 / values["I11"],)
 
 
 ROWS = {
-    "$\\omega_0$ is 0.896": lambda s: (free.passage(free_body(s.prediction.then.values), started(s)).rate,),
+    "$\\omega_0$ is 0.896": lambda s: (free.passage(free_body(s.prediction.outcome.values), started(s)).rate,),
     "the slope is −0.78": rate_at_the_end,
 }
 """A phrase of the lesson → the numbers in it, computed from the step."""

@@ -27,7 +27,7 @@ def heavy_body(values):
 @cache
 def cascade():
     """The doublings of the first body of the lesson over I23."""
-    values = package_lessons()[NAME].steps[0].at.values
+    values = package_lessons()[NAME].steps[0].state.values
     body, E = heavy_body(values)
     map_ = return_map(body, E=E)
     orbit = periodic_orbit(map_, points_of(values["chosen"])[-1], 1)
@@ -69,14 +69,14 @@ def first_cascade(_step):
 
 def multipliers(_step):
     """Return the multiplier that is not the other one's inverse where the period doubles first."""
-    body, E = heavy_body(package_lessons()[NAME].steps[0].at.values)
+    body, E = heavy_body(package_lessons()[NAME].steps[0].state.values)
     map_ = return_map(replace(body, I23=float(cascade().values[0])), E=E)
     return (min(periodic_orbit(map_, tuple(cascade().points[0][0]), 1).multipliers.real),)
 
 
 ROWS = {
-    "Its **period** is 1.": lambda s: (number_of_points(s.at),),
-    "There are two.": lambda s: (number_of_points(s.prediction.then),),
+    "Its **period** is 1.": lambda s: (number_of_points(s.state),),
+    "There are two.": lambda s: (number_of_points(s.prediction.outcome),),
     "line means period 1. It splits: from there on the period is 2.": lambda s: cascade().periods[:2],
     "passes −1: the": multipliers,
     "the motion of period 1 no longer": lambda s: cascade().periods[:1],

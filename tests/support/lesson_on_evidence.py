@@ -35,13 +35,13 @@ def growth(values):
 
 def bought_by_a_digit(_step):
     """Return the time that a digit buys, the digits of a double, and whether no level is right to a pixel at a time."""
-    state = scenes()["orbit-diagram"].of(STEPS["What is a picture of chaos worth?"].at.values)
+    state = scenes()["orbit-diagram"].of(STEPS["What is a picture of chaos worth?"].state.values)
     section = state.poincare
     starts = section.spread(16)
     units = math.log(10.0) / np.array([lyapunov_spectrum(state.body, start, 8000.0).values[0] for start in starts])
 
     def lost(time):
-        found = moved_growth(STEPS["Chaos magnifies errors"].prediction.then.values | {"span": time}, "pixels")
+        found = moved_growth(STEPS["Chaos magnifies errors"].prediction.outcome.values | {"span": time}, "pixels")
         return all(deviations(one, 0.0) > 5.0 for one in found.values())
 
     return (units, 2.0), DIGITS, lost
@@ -49,25 +49,25 @@ def bought_by_a_digit(_step):
 
 def passage(step):
     """ω(t) of the state that is revealed."""
-    values = step.prediction.then.values
+    values = step.prediction.outcome.values
     return free.passage(free_body(values), (values["w1"], values["w2"]))
 
 
 def left(step):
     """Return the logarithm of the distance from the line that ω1 has to make up, this distance, and the time."""
-    found, values = passage(step), step.prediction.then.values
+    found, values = passage(step), step.prediction.outcome.values
     assert found.rate == 1.0
     return -math.log(values["w2"]), 1.0 / values["w2"], -found.u0 / found.rate
 
 
 def hardly_moves(time):
     """Return whether the motion that is revealed differs by less than a pixel from a uniform rotation up to a time."""
-    values = STEPS["A rotation that seems to be stable"].prediction.then.values
+    values = STEPS["A rotation that seems to be stable"].prediction.outcome.values
     return values["w2"] * math.exp(time) < 1e-3 * values["w1"]
 
 
 def two(step):
-    return (crossings(step.at.values),)
+    return (crossings(step.state.values),)
 
 
 ROWS = {

@@ -19,15 +19,15 @@ def torus(values):
 
 
 def here(step):
-    return torus(step.at.values)
+    return torus(step.state.values)
 
 
 def then(step):
-    return step.prediction.then.values
+    return step.prediction.outcome.values
 
 
 def a_of(step):
-    return step.at.values["I23"] / step.at.values["I22"]
+    return step.state.values["I23"] / step.state.values["I22"]
 
 
 def crossings(values):
@@ -55,17 +55,19 @@ def threshold(_step):
 
 def turned(step, **changes):
     """Return the angle χ through which the passage turns ξ, in degrees."""
-    return math.degrees(math.acos(scattering(free_body({**step.at.values, **changes}), PRECISE).cos_chi))
+    return math.degrees(math.acos(scattering(free_body({**step.state.values, **changes}), PRECISE).cos_chi))
 
 
 def outgoing(step):
-    found = scattering(free_body(step.at.values), PRECISE).theta_plus(step.at.values["theta"], np.linspace(0, 7, 20001))
+    found = scattering(free_body(step.state.values), PRECISE).theta_plus(
+        step.state.values["theta"], np.linspace(0, 7, 20001)
+    )
     return float(found.min()), float(found.max())
 
 
 def on_the_wall(step):
     """Return the circle map of the Hess manifold of a heavy body."""
-    one = step.at.values
+    one = step.state.values
     body = Bridge.of_heavy(HeavyBody.hess((one["I1"], one["I2"], one["I3"]), one["m"])).hess
     a1 = 1.0 / one["I2"]
     return circle_map(body.a, a1 * one["h"] / body.b, a1 * one["f"] / math.sqrt(body.b), PRECISE)
@@ -82,7 +84,7 @@ ROWS = {
         "−0.3959 turns": lambda s: (here(s).rotation_number,),
         "If it is more than 2, there are exactly two fixed points": lambda s: (
             *threshold(s),
-            crossings({**s.at.values, "h": 1.5}),
+            crossings({**s.state.values, "h": 1.5}),
         ),
         "Here the trace is 1.0187": lambda s: (here(s).trace,),
         "φ = −2.187, it is 0.232": lambda s: (
@@ -91,9 +93,9 @@ ROWS = {
         ),
         "multipliers is 1:": lambda s: (math.exp(sum(one.log_multiplier for one in here(s).fixed_points)),),
         "At h = 1.076 the curve touches, and the trace is 2": lambda s: birth(
-            *(s.at.values[name] for name in ("I22", "I23", "f"))
+            *(s.state.values[name] for name in ("I22", "I23", "f"))
         ),
-        "locked at 0, and there are two cycles": lambda s: (here(s).rotation_number, crossings(s.at.values)),
+        "locked at 0, and there are two cycles": lambda s: (here(s).rotation_number, crossings(s.state.values)),
         # The trace on the bifurcation curve, 2cos(π√(n²(1+a²)−a²)/√(1+3n²)), is 2 where n²(1+a²) = a².
         "$a$ is 0.2917, so that is $n_3$ = 0.28, at the energy h = 1.366": lambda s: (
             a_of(s),
@@ -118,8 +120,8 @@ ROWS = {
         "$\\chi$ = 148.0°": lambda s: (turned(s),),
         "to its opposite, $\\chi=180°$": lambda s: (turned(s, k=1.0),),
         "With $I_{23}$ = 0.4 the angle is already 175.5°": lambda s: (
-            0.5 * s.at.values["I23"],
-            turned(s, I23=0.5 * s.at.values["I23"]),
+            0.5 * s.state.values["I23"],
+            turned(s, I23=0.5 * s.state.values["I23"]),
         ),
     },
     "two-chaotic-layers-that-never-mix": {

@@ -29,7 +29,7 @@ class Formula:
         places = np.asarray(place, float)
         return np.array([self.of(*one) for one in np.atleast_2d(places)], float).reshape(places.shape)
 
-    def after(self, place, count):
+    def iterate(self, place, count):
         for _ in range(count):
             place = self.image(place)
         return place

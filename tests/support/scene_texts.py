@@ -136,7 +136,7 @@ def rest(h):
 
 def eigenvalues(step):
     """Return the real and the imaginary part of the eigenvalue of the spiral, and the last eigenvalue."""
-    rates = rest(step.at.values["h"])[2]
+    rates = rest(step.state.values["h"])[2]
     spiral, last = rates[np.argmax(rates.imag)], min(rates.real)
     return spiral.real, spiral.imag, last
 
@@ -248,7 +248,7 @@ ROWS = {
         "From $-0.2574134$ to $-0.2569055$, between two folds, it is locked: there is an orbit of period 10. At "
         "$-0.257$": lambda s: locked(-0.257),
         "At $-0.2605$ there is a strange attractor with $\\lambda=0.034\\pm0.003$ and the dimension "
-        "$2.25\\pm0.02$": lambda s: (s.at.values["I13"], *chaos("orbit-diagram", "A torus", True)[::2]),
+        "$2.25\\pm0.02$": lambda s: (s.state.values["I13"], *chaos("orbit-diagram", "A torus", True)[::2]),
         "the eigenvalues $0.282\\pm2.035i$ and $-0.723$": eigenvalues,
         "At $h=5.015931\\pm0.000001$": homoclinic,
         "$-0.0068\\pm0.0005$ forward and $0.0068\\pm0.0005$": lambda s: divergences(

@@ -36,7 +36,7 @@ class View:
     """
 
     def __init__(
-        self, scene, values, dragging=False, seen=None, noted=False, refusing=False, whole=True, density=False
+        self, scene, values, is_preview=False, seen=None, noted=False, refusing=False, whole=True, density=False
     ):
         self.wire = Wire()
         self.stage = Stage(scene, self.wire)
@@ -48,11 +48,11 @@ class View:
         # A chart has cells without a number, and tests of its own.
         seen = [name for name in scene.pictures if name != "chart"] if seen is None else seen
         self.refused, self._left_out = [], []
-        self.begun = self.result = scene.compute(self.values, seen, dragging)
+        self.begun = self.result = scene.compute(self.values, seen, is_preview)
         self.first = self.report = self.stage.show(self.result, False)
         # Results may request more; an orbit diagram comes in twenty parts, one after the other.
         for _ in range(30 if whole else 0):
-            if not self._complete(scene, seen, dragging, refusing):
+            if not self._complete(scene, seen, is_preview, refusing):
                 break
         assert not whole or len(self.report.todo) == len(self.refused)
         tree, block = self.wire.pack()
@@ -62,7 +62,7 @@ class View:
         }
         self.axes, self.captions, self.text = tree["ranges"], tree["captions"], texts_in(tree)
 
-    def _complete(self, scene, seen, dragging, refusing):
+    def _complete(self, scene, seen, is_preview, refusing):
         """Compute and show the pending results; return whether there were any."""
         left = [task for task in self.report.todo if task not in self._left_out]
         for task in left:
@@ -73,7 +73,7 @@ class View:
                 self.refused.append(str(error))
                 self._left_out.append(task)
         if left:
-            self.result = scene.compute(self.values, seen, dragging)
+            self.result = scene.compute(self.values, seen, is_preview)
             self.report = self.stage.show(self.result, False)
         return bool(left)
 

@@ -19,7 +19,7 @@ def tori():
 @pytest.fixture
 def in_pieces(monkeypatch):
     """Return a function that sets the size of pieces to at most so many cells."""
-    return lambda cells: monkeypatch.setattr(running, "cells_of_a_piece", lambda *_: cells)
+    return lambda cells: monkeypatch.setattr(running, "piece_size", lambda *_: cells)
 
 
 @pytest.fixture

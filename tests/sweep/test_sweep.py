@@ -47,10 +47,10 @@ def test_progress_says_what_is_left(tori, in_pieces):
     in_pieces(20)
     seen = []
     tori(progress=seen.append)
-    assert (seen[0].done, seen[0].left) == (0, None)
-    assert (seen[-1].done, seen[-1].cells, seen[-1].left) == (108, 108, 0.0)
+    assert (seen[0].done, seen[0].remaining) == (0, None)
+    assert (seen[-1].done, seen[-1].cells, seen[-1].remaining) == (108, 108, 0.0)
     middle = seen[len(seen) // 2]
-    assert middle.left == pytest.approx(middle.seconds * (108 - middle.done) / middle.done)
+    assert middle.remaining == pytest.approx(middle.seconds * (108 - middle.done) / middle.done)
 
 
 WRONG = [

@@ -18,7 +18,7 @@ def run_file(path: str | Path) -> dict[str, Any]:
     """Run a Python file of the user and return its names.  Raises `CommandError` if the file raises an exception."""
     try:
         return runpy.run_path(str(path))
-    # The user's code may raise anything.
+    # The user's code may raise any exception.
     except Exception as error:
         raise CommandError(f"{str(path)!r} failed with {type(error).__name__}: {error}.") from error
 

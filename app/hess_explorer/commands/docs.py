@@ -20,7 +20,7 @@ def _run(options: Options) -> None:
     folder = Path(options.out or tempfile.mkdtemp(prefix="hess-explorer-docs-"))
     print("Building the documentation takes a few minutes.", file=sys.stderr)
     words = ["-q", "-b", "html", "-d", str(folder / ".doctrees"), str(_SOURCE), str(folder)]
-    # Show only the end of Sphinx's output, and only on failure.
+    # Sphinx's output is long: show its end, and only on failure.
     ran = subprocess.run([sys.executable, "-m", "sphinx", *words], capture_output=True, text=True, check=False)
     if ran.returncode:
         raise CommandError(

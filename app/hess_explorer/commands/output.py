@@ -151,9 +151,9 @@ def show(data: bytes, out: Path | None = None) -> None:
         sys.stdout.buffer.write(data)
         sys.stdout.flush()
     except OSError as error:
-        # Prevent Python from flushing the rest at exit.
+        # Redirect stdout, because Python flushes the rest at exit and would fail again.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        # The reader (such as `head`) may close the pipe early.
+        # The reader, such as `head`, may close the pipe early.
         if not isinstance(error, BrokenPipeError):
             raise CommandError(f"Cannot write to standard output ({error.strerror}): use --out FILE.") from error
 

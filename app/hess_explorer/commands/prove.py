@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 
 from hess_mechanics import certificate, prove
-from hess_mechanics.suslov_hess.certificate import claim
+from hess_mechanics.suslov_hess.certificate import statement_text
 
 from .command import OUT, Command, Options, integer_option, option
 from .output import long_computation, show
@@ -23,7 +23,7 @@ def _run(options: Options) -> None:
         names = [name for name in _FACTS if found.get(name) is not None]
         text = "\n".join(
             [
-                claim(proof),
+                statement_text(proof),
                 *(f"{name.replace('_', ' ')}: {json.dumps(found[name])}" for name in names),
                 "The proof holds for the equations with exactly these numbers, provided that the ball arithmetic of "
                 "Arb is correct; --format json prints the certificate.",

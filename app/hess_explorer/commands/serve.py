@@ -98,8 +98,8 @@ def _chart_link(results: xr.Dataset) -> str:
     steps = [np.diff(side) for side in sides]
     if len(names) != 2 or not all(one.size and one[0] > 0.0 and np.allclose(one, one[0], atol=0.0) for one in steps):
         raise InvalidParameter(
-            f"A chart is over two parameters LOW:HIGH:COUNT, but this sweep is over {', '.join(names)}: open it in "
-            "Python with hess_explorer.sweep.read."
+            f"A chart needs a sweep over two parameters LOW:HIGH:COUNT, and this one is over {', '.join(names)}: open "
+            "it in Python with hess_explorer.sweep.read."
         )
     ends = ((side[0] - one[0] / 2.0, side[-1] + one[0] / 2.0) for side, one in zip(sides, steps, strict=True))
     window: Any = tuple(zip(*ends, strict=True))

@@ -44,7 +44,7 @@ class Background:
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._job = _Job()
-        # The running tasks, including those of earlier states, each with the event that cancels it.
+        # Maps each running task, including those of earlier states, to the event that cancels it.
         self._running: list[tuple[Task[Any], threading.Event]] = []
 
     def follow(self, tasks: Collection[Task[Any]]) -> None:
@@ -54,12 +54,12 @@ class Background:
         self.add(tasks)
 
     def add(self, tasks: Collection[Task[Any]]) -> None:
-        """Compute these tasks too, after the others."""
+        """Queue further tasks behind the present ones."""
         job = self._job
         with self._lock:
             job.tasks.extend(tasks)
         for _ in range(min(POOL.cores, len(tasks))):
-            POOL.fill(lambda: self._step(job))
+            POOL.add_task(lambda: self._step(job))
 
     def stop(self) -> None:
         """Discard all tasks; running ones end at the next check of their budget."""
@@ -95,7 +95,7 @@ class Background:
         with self._lock:
             job.running -= 1
             self._running.remove(begun)
-        POOL.fill(lambda: self._step(job))
+        POOL.add_task(lambda: self._step(job))
 
     @property
     def backlog(self) -> int:

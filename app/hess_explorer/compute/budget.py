@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 
 from hess_mechanics.errors import WorkLimit
-from hess_mechanics.numerics.jit import seconds_compiling
+from hess_mechanics.numerics.jit import compile_seconds
 from hess_mechanics.numerics.patience import work_limit
 
 SECONDS = 4.0
@@ -34,9 +34,9 @@ class Budget:
     """CPU budget of the answering thread; helpers charge it through `spend`."""
 
     def __init__(self, cancellation: threading.Event, seconds: float, wait: float, what: str) -> None:
-        self.cancellation, self.seconds, self.wait, self.what = cancellation, seconds, wait, what
-        self._thread, self._began, self._compiled = threading.get_ident(), time.thread_time(), seconds_compiling()
-        self.clock_ends = time.monotonic() + wait
+        self.cancellation, self.seconds, self.wait, self.subject = cancellation, seconds, wait, what
+        self._thread, self._began, self._compiled = threading.get_ident(), time.thread_time(), compile_seconds()
+        self.deadline = time.monotonic() + wait
         self._elsewhere, self._lock = 0.0, threading.Lock()
 
     def spend(self, seconds: float) -> None:
@@ -49,7 +49,7 @@ class Budget:
         """CPU time spent, in seconds, without compilation.  Only the answering thread sees its own share."""
         own = 0.0
         if threading.get_ident() == self._thread:
-            own = max(0.0, time.thread_time() - self._began - (seconds_compiling() - self._compiled))
+            own = max(0.0, time.thread_time() - self._began - (compile_seconds() - self._compiled))
         return own + self._elsewhere
 
 
@@ -89,10 +89,10 @@ def check() -> None:
         raise ClientGone
     if budget.cpu_seconds > budget.seconds:
         raise OverBudget(
-            f"{budget.what} takes more than {budget.seconds:g} s to compute, which is the limit: "
+            f"{budget.subject} takes more than {budget.seconds:g} s to compute, which is the limit: "
             "choose a shorter time span, fewer orbits or a lower accuracy."
         )
-    if time.monotonic() > budget.clock_ends:
+    if time.monotonic() > budget.deadline:
         raise OverBudget(
             f"The server is too busy to compute this state within {budget.wait:g} s: try again later, or "
             "choose a shorter time span or a lower accuracy."

@@ -23,7 +23,7 @@ _OVERHEAD, _NUMBER = 512, 64
 
 def size_of(value: Any) -> int:
     """Return the size of a result in bytes: all arrays in dataclasses, mappings and tuples, plus overhead."""
-    # The most frequent type first.
+    # Test for the most frequent type first.
     if type(value) is float:
         return _NUMBER
     if isinstance(value, np.ndarray):
@@ -87,7 +87,7 @@ class ResultCache:
             try:
                 return running.result(), True
             except (ClientGone, OverBudget):
-                # Another session's budget ended, not this one's.
+                # The budget of another session ended, so compute the result here.
                 return self.get(function, *arguments)
         try:
             value = function(*arguments)

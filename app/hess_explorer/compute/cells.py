@@ -89,14 +89,14 @@ class CellResults:
         Their estimated errors, where estimates exist.
     status : array (n,) of Outcome
         Status of each cell.
-    why : mapping of int to str
+    reasons : mapping of int to str
         The reason why a cell has no number, or which of its numbers is missing, by index of the cell.
     """
 
     values: Mapping[str, Array]
     errors: Mapping[str, Array]
     status: Outcomes
-    why: Mapping[int, str] = field(default_factory=dict)
+    reasons: Mapping[int, str] = field(default_factory=dict)
 
 
 def failure(error: Exception, cell: Mapping[str, object]) -> tuple[Outcome, str]:
@@ -131,7 +131,7 @@ def evaluate(what: Computation, numbers: Sequence[str], columns: Mapping[str, Ar
     """
     count = next(iter(columns.values())).size
     with np.errstate(all="ignore"):
-        if what.many is not None and (many := _at_once(what, numbers, columns, level, count)) is not None:
+        if what.vectorized is not None and (many := _at_once(what, numbers, columns, level, count)) is not None:
             return many
         return _one_by_one(what, numbers, columns, level, count)
 
@@ -140,25 +140,25 @@ def _at_once(
     what: Computation, numbers: Sequence[str], columns: Mapping[str, Array], level: Level, count: int
 ) -> CellResults | None:
     """Evaluate all cells in one call; return None if a number has no such function, or if a cell fails."""
-    assert what.many is not None
+    assert what.vectorized is not None
     every = {one.name: np.full(count, one.default) for one in what.parameters} | dict(columns)
     try:
-        known, missing = what.many(level, **every)
+        known, missing = what.vectorized(level, **every)
     except ModelError:
-        # One by one tells which cells are wrong.
+        # The caller then computes the cells one by one, which shows where the error is.
         return None
     if not {*numbers} <= known.keys():
         return None
     status: Outcomes = np.full(count, Outcome.OK, np.uint8)
-    why: dict[int, str] = {}
+    reasons: dict[int, str] = {}
     for kind, there in missing.items():
         outcome = next(outcome for error, outcome in _OF_ERROR if issubclass(kind, error))
         status[there] = outcome
-        why |= dict.fromkeys(np.flatnonzero(there).tolist(), f"{outcome.words}.")
+        reasons |= dict.fromkeys(np.flatnonzero(there).tolist(), f"{outcome.words}.")
     values = {name: known[name] for name in numbers}
     finite = np.any([np.isfinite(one) for one in values.values()], axis=0)
     status[~finite & (status < Outcome.OUTSIDE_REGION)] = Outcome.BEYOND_RANGE
-    return CellResults(values, {}, status, why)
+    return CellResults(values, {}, status, reasons)
 
 
 def _one_by_one(
@@ -167,7 +167,7 @@ def _one_by_one(
     values = {name: np.full(count, np.nan) for name in numbers}
     errors = {name: np.full(count, np.nan) for name in numbers if what.number(name).error_reader is not None}
     status: Outcomes = np.zeros(count, np.uint8)
-    why: dict[int, str] = {}
+    reasons: dict[int, str] = {}
     rows = zip(*(column.tolist() for column in columns.values()), strict=True)
     for i, row in enumerate(rows):
         cell = dict(zip(columns, row, strict=True))
@@ -175,7 +175,7 @@ def _one_by_one(
             found = what.compute(cell, level)
         # An error in one cell must not stop the others.
         except Exception as error:
-            status[i], why[i] = failure(error, cell)
+            status[i], reasons[i] = failure(error, cell)
             continue
         status[i] = Outcome[getattr(found, "status", Status.OK).name]
         outcomes = []
@@ -186,12 +186,12 @@ def _one_by_one(
                 if name in errors:
                     errors[name][i] = one.error(found)
             except Exception as error:
-                outcome, why[i] = failure(error, cell)
+                outcome, reasons[i] = failure(error, cell)
                 outcomes.append(outcome)
                 continue
             if not math.isfinite(values[name][i]):
                 outcomes.append(Outcome.BEYOND_RANGE)
-        # A cell with at least one number has a value.
+        # A cell with at least one finite number counts as computed.
         if len(outcomes) == len(numbers):
             status[i] = outcomes[0]
-    return CellResults(values, errors, status, why)
+    return CellResults(values, errors, status, reasons)

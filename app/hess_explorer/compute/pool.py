@@ -15,7 +15,7 @@ from hess_mechanics.numerics.parallel import THREADS
 
 logger = logging.getLogger("hess_explorer")
 
-MOST = 20
+MAX_REQUESTS = 20
 """Maximum number of waiting requests of a session; a page sends one at a time."""
 
 PATIENCE = 1.0
@@ -26,15 +26,15 @@ class Pool:
     """Runs the requests of all sessions in rotation, and background tasks when a core is free."""
 
     def __init__(self, cores: int) -> None:
-        # One thread more than cores, so that a slow request does not block the others.  Many more threads would delay
+        # One more thread than cores, so that a slow request does not block the others.  Many more threads would delay
         # the event loop, which competes with them for the interpreter lock.
         self._requests = ThreadPoolExecutor(cores + 1, thread_name_prefix="request")
         self._waiting: list[RequestQueue] = []
         self._busy = 0
         self._changed = threading.Condition()
-        self.use(cores)
+        self.set_cores(cores)
 
-    def use(self, cores: int) -> None:
+    def set_cores(self, cores: int) -> None:
         """Set the number of cores, which is also the maximum number of running background tasks."""
         self.cores = max(1, cores)
         self._tasks = ThreadPoolExecutor(self.cores, thread_name_prefix="background")
@@ -46,7 +46,7 @@ class Pool:
             self._busy += 1
         self._submit(self._requests, self._answer_next)
 
-    def fill(self, task: Callable[[], None]) -> None:
+    def add_task(self, task: Callable[[], None]) -> None:
         """Run a background task when a core is free, or after `PATIENCE` seconds."""
 
         def when_free() -> None:
@@ -71,7 +71,7 @@ class Pool:
             self._changed.notify_all()
 
     def _submit(self, threads: ThreadPoolExecutor, run: Callable[[], None]) -> None:
-        # `submit` raises this while the interpreter shuts down.
+        # `submit` raises a RuntimeError while the interpreter shuts down.
         with suppress(RuntimeError):
             threads.submit(run)
 
@@ -90,7 +90,7 @@ class RequestQueue:
 
     def __init__(self) -> None:
         self.served = 0.0
-        self._waiting: deque[Callable[[], None]] = deque(maxlen=MOST)
+        self._waiting: deque[Callable[[], None]] = deque(maxlen=MAX_REQUESTS)
         self._lock = threading.Lock()
         self._busy = False
         self._left = threading.Event()

@@ -23,13 +23,13 @@ html_theme = "furo"
 html_title = "Hess Explorer"
 html_show_sourcelink = html_show_copyright = False
 
-# A tutorial that fails ends the build.
+# Stop the build if a tutorial fails.
 nb_execution_mode = "force"
 nb_execution_raise_on_error = True
 nb_execution_show_tb = True
 nb_execution_in_temp = True
 nb_execution_timeout = 300
-suppress_warnings = ["mystnb.unknown_mime_type"]  # the scripts that HoloViews loads in a notebook
+suppress_warnings = ["mystnb.unknown_mime_type"]  # HoloViews loads scripts of this type in a notebook.
 
 autodoc_member_order = "alphabetical"
 autodoc_typehints = "none"  # numpydoc shows the types of the parameters
@@ -37,7 +37,7 @@ numpydoc_show_class_members = False
 
 
 def _escape_bars(app: object, what: str, name: str, of: object, options: object, lines: list[str]) -> None:
-    """Keep |f| as it is: reStructuredText would take the bars for a substitution."""
+    """Escape the bars of |f|, which reStructuredText would read as a substitution."""
     lines[:] = [line.replace("|", r"\|") for line in lines]
 
 

@@ -16,7 +16,7 @@ from hess_explorer.views.layers import Columns, Sources
 from hess_explorer.views.plot import Plot
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.labelled import Labels, Result
-from hess_mechanics.numerics.results import angle_convention, frozen
+from hess_mechanics.numerics.results import angle_convention, as_read_only
 
 __all__ = ["Table", "columns_of"]
 
@@ -157,7 +157,7 @@ class _Layer(Result):
     def labels(self) -> Labels:
         columns = {name: column for name, column in self.table.columns.items() if name != "layer"}
         axes = dict(zip("xy", self.table.axes, strict=False))
-        # The axes of the plot name columns x and y.
+        # A plot calls its columns x and y; the labels name the quantities on its axes.
         symbols = {name: axes.get(name, name) for name, column in columns.items() if column.dtype.kind == "f"}
         units = {name: _UNITS.get(symbol, "1") for name, symbol in symbols.items()}
         facts = {**self.table.facts, **{f"{name}_axis": symbol for name, symbol in axes.items()}}
@@ -191,7 +191,9 @@ def columns_of(data: PictureData) -> Table:
     ]
     known = dict.fromkeys(name for block in blocks for name in block)
     names = dict.fromkeys(["layer", *(name for name in INDICES if name in known), *known])
-    return Table({name: frozen(_column(name, blocks)) for name in names}, {**data.facts, **angles_of(data)}, data.names)
+    return Table(
+        {name: as_read_only(_column(name, blocks)) for name in names}, {**data.facts, **angles_of(data)}, data.names
+    )
 
 
 def angles_of(data: PictureData) -> dict[str, dict[str, str]]:
@@ -218,7 +220,7 @@ def layers_of(data: PictureData) -> Sources:
     own = f"{data.picture.name}-"
     for source, columns in sorted(data.columns.items()):
         layer = source.removeprefix(own).removeprefix("data-")
-        # Labels belong to the look of a picture, not to its numbers.
+        # A label belongs to the appearance of a picture, not to its numbers.
         if layer.endswith("-label"):
             continue
         if layer == SWARM:

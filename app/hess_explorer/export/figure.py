@@ -225,7 +225,7 @@ def densities(data: PictureData) -> list[tuple[CloudPlane[Any], Layer[Any]]]:
     return [
         (view, layers[view.density])
         for view in data.scene.views
-        if isinstance(view, CloudPlane) and view.density in layers and view.name in plot.needs
+        if isinstance(view, CloudPlane) and view.density in layers and view.name in plot.dependencies
     ]
 
 

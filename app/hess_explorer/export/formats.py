@@ -30,7 +30,7 @@ class Format(NamedTuple):
 
     Attributes
     ----------
-    holds : str
+    content : str
         Category: "data", "figure", "film", "state" or "program".
     media : str
         Media type.
@@ -38,7 +38,7 @@ class Format(NamedTuple):
         Label in the dialog; empty if the dialog does not offer it.
     """
 
-    holds: str
+    content: str
     media: str
     words: str = ""
 
@@ -105,4 +105,4 @@ class FileRequest:
 
 def formats_of(*what: str) -> tuple[str, ...]:
     """Return the formats of the given categories."""
-    return tuple(kind for kind, one in FORMATS.items() if one.holds in what)
+    return tuple(kind for kind, one in FORMATS.items() if one.content in what)

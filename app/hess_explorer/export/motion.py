@@ -71,7 +71,7 @@ def _first_return(times: Array, states: Array) -> float | None:
     if not found.size:
         return None
     lasts = float(times[found[0]] + share[found[0]] * np.diff(times)[found[0]])
-    # A motion near a saddle or in a chaotic sea also returns once, but does not repeat itself from then on.
+    # A motion near a saddle or in a chaotic sea may return once without repeating itself afterwards.
     later = times >= lasts
     again = np.stack([np.interp(times[later] - lasts, times, column) for column in states.T], axis=1)
     return lasts if np.max(np.linalg.norm(states[later] - again, axis=1)) < 5.0 * _CLOSE else None

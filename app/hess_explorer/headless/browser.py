@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 VARIABLE = "HESS_EXPLORER_BROWSER"
 _COMMANDS = ("chromium", "chromium-headless-shell", "google-chrome")
 _POLLING_MS = 10
-# Prevent third-party requests by the browser itself, independently of Playwright's defaults.
+# Prevent third-party requests of the browser, whatever the defaults of Playwright.
 _QUIET = ("--disable-background-networking", "--disable-component-update", "--disable-domain-reliability", "--no-pings")
 
 
@@ -98,7 +98,7 @@ def _launch(chromium: BrowserType, path: str, *, sandbox: bool) -> Browser:
 
 
 def wait_ready(page: Page, after: int = -1, seconds: float = 120) -> None:
-    """Wait until the page has drawn a state whose number exceeds `after`.
+    """Wait until the page has drawn a state with a number above `after`.
 
     The root element of the page has data-ready="true" when all requested data are drawn; data-state is the number of
     states drawn so far.  Raises Playwright's TimeoutError after `seconds`.

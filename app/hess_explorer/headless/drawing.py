@@ -82,7 +82,8 @@ def _in_browser(act: Callable[[Browser], T]) -> T:
         try:
             return act(browser)
         except Error as error:
-            raise BrowserError(f"The picture could not be drawn: {error.message.splitlines()[0]}") from error
+            why = error.message.splitlines()[0]
+            raise BrowserError(f"The browser could not draw the picture ({why}): try again.") from error
 
     return _studio().run(act_or_say)
 

@@ -38,9 +38,9 @@ def content(
         If a browser is needed and there is none.
     """
     kind, width, black = request.kind, request.width, request.black
-    if FORMATS[kind].holds == "film":
+    if FORMATS[kind].content == "film":
         return as_film(data, request, report)
-    if FORMATS[kind].holds == "data" or isinstance(data.picture, Plot):
+    if FORMATS[kind].content == "data" or isinstance(data.picture, Plot):
         return as_file(data, request)
     return png_of(data, width, black) if kind == "png" else figure_bytes(figure(data, width, black), data, kind)
 

@@ -138,9 +138,10 @@ def as_film(
             except BrokenPipeError:
                 log = encoder.stderr.read().decode(errors="replace").strip() or "it has ended"
             except BaseException:
-                # Do not leave the encoder running.
+                # Stop the encoder, which would otherwise keep running.
                 encoder.kill()
                 raise
         if encoder.returncode or not path.exists():
-            raise InvalidParameter(f"The film could not be encoded ({log.splitlines()[-1] if log else 'no reason'}).")
+            reason = log.splitlines()[-1] if log else "no reason given"
+            raise InvalidParameter(f"The film could not be encoded ({reason}): choose a shorter or smaller film.")
         return path.read_bytes()

@@ -39,7 +39,8 @@ def wait_alive(process: subprocess.Popen[bytes], port: int, log: Path) -> None:
     while not is_alive("127.0.0.1", port):
         if process.poll() is not None or time.monotonic() > deadline:
             lines = log.read_text(errors="replace").strip().splitlines()
-            raise ServerError(f"The server did not start ({lines[-1] if lines else 'its log is empty'}).")
+            reason = lines[-1] if lines else "its log is empty"
+            raise ServerError(f"The server did not start ({reason}): run `hess-explorer serve` to see the reason.")
         time.sleep(0.1)
 
 
@@ -105,7 +106,7 @@ def screenshot(query: str, size: tuple[int, int]) -> bytes:
     BrowserError
         If there is no browser, or the page cannot be drawn.
     """
-    # The browser first, so that a missing browser is reported without waiting for the server.
+    # Start the browser first, so that a missing browser is reported without waiting for the server.
     with headless_browser() as browser, tempfile.TemporaryDirectory() as folder:
         from playwright.sync_api import Error
 
@@ -116,4 +117,5 @@ def screenshot(query: str, size: tuple[int, int]) -> bytes:
                 wait_ready(page)
                 return page.screenshot()
             except Error as error:
-                raise BrowserError(f"The page could not be drawn: {error.message.splitlines()[0]}") from error
+                why = error.message.splitlines()[0]
+                raise BrowserError(f"The browser could not draw the page ({why}): try again.") from error

@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 
 from hess_explorer.lessons.lesson import Lesson
-from hess_explorer.lessons.reading import read, read_tries
+from hess_explorer.lessons.reading import read, read_suggestions
 from hess_explorer.scenes import scenes
 
 
@@ -19,7 +19,7 @@ def package_lessons() -> Mapping[str, Lesson]:
 
 
 @cache
-def tries() -> Mapping[str, Lesson]:
+def suggestions() -> Mapping[str, Lesson]:
     """Return the "Try this" sections by scene, except for "Speed and accuracy" scenes."""
-    found = {scene.name: read_tries(scene) for scene in scenes().values() if scene.origin is None}
+    found = {scene.name: read_suggestions(scene) for scene in scenes().values() if scene.origin is None}
     return {name: lesson for name, lesson in found.items() if lesson is not None}

@@ -53,7 +53,9 @@ def _problems_of(token: Token, at: int, images: Images, scene: Scene[Any] | None
 def _check(token: Token, at: int, images: Images, scene: Scene[Any] | None) -> None:
     """Raise an error if the page cannot show a token."""
     if token.type == "text" and "$" in token.content:
-        raise LessonError("a dollar stands alone: close the formula without a space inside, or write \\$.", at)
+        raise LessonError(
+            "a dollar sign has no counterpart: close the formula without a space inside, or write \\$.", at
+        )
     if token.type.startswith("html"):
         raise LessonError(f"{_short(token.content)} is HTML, which is not read here: write it in Markdown.", at)
     if token.type in _MATH:
@@ -74,7 +76,7 @@ def _check(token: Token, at: int, images: Images, scene: Scene[Any] | None) -> N
                 require_number(number[2], scene, at)
         elif not re.match(r"https?://[^/]", target, re.IGNORECASE):
             ways = "https://…, ?scene=… for a state of the page, or picture/layer for what a picture shows"
-            raise LessonError(f"the link to {_short(target)} leads nowhere: write {ways}.", at)
+            raise LessonError(f"the link to {_short(target)} has an unknown target: write {ways}.", at)
 
 
 def _short(text: str) -> str:

@@ -37,7 +37,7 @@ class Images:
         raw = self._read(target)
         kind = _kind(raw)
         if kind is None:
-            what = "an SVG" if b"<svg" in raw[:1024].lower() else "none of these"
+            what = "an SVG" if b"<svg" in raw[:1024].lower() else "in an unknown format"
             raise ImageError(f"the image is {what}: {_FORMATS} are allowed.")
         self._total += len(raw)
         if self._total > MAX_ALL:
@@ -46,7 +46,7 @@ class Images:
 
     def _read(self, target: str) -> bytes:
         if self._folder is None:
-            raise ImageError("images are not allowed in this text.")
+            raise ImageError("images are not allowed in this text: leave them out.")
         if ":" in target or "\\" in target or target.startswith(("/", "?", "#")):
             raise ImageError("an image is a file beside the lesson, like ![A wheel](wheel.png).")
         folder = self._folder.resolve()
@@ -55,14 +55,14 @@ class Images:
             if not path.is_relative_to(folder):
                 raise ImageError("the image is outside the folder of the lesson: put it beside the lesson.")
             if not path.is_file():
-                raise ImageError("there is no such file beside the lesson.")
+                raise ImageError("there is no such file beside the lesson: put it there, or correct the name.")
             with path.open("rb") as file:
                 raw = file.read(MAX_ONE + 1)
         except ImageError:
             raise
-        # A name may hold a zero byte, be too long, or run in a circle of links.
+        # A file name may contain a zero byte, be too long, or lead into a cycle of links.
         except (OSError, RuntimeError, ValueError) as error:
-            raise ImageError("the image cannot be read.") from error
+            raise ImageError("the image cannot be read: check its name and permissions.") from error
         if len(raw) > MAX_ONE:
             raise ImageError(f"the image has more than {MAX_ONE // 1024} kB: save it smaller.")
         return raw

@@ -73,17 +73,17 @@ class Prediction:
         Data source of the hidden layer in the browser.
     columns : tuple of str
         Names of its columns with positions (x, y) of points or curves.
-    what : str
+    kind : str
         "point" for one click, compared with the nearest point; "curve" for clicks along a curve.
-    then : StateLink
+    outcome : StateLink
         State in which the layer is shown.
     """
 
     picture: str
     source: str
     columns: tuple[str, str]
-    what: Literal["point", "curve"]
-    then: StateLink
+    kind: Literal["point", "curve"]
+    outcome: StateLink
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,7 @@ class LessonStep:
     ----------
     text, answer : str
         Markdown; the answer is hidden at first.
-    look : str
+    enlarged_picture : str
         Name of the picture to enlarge, "" for none.
     controls : tuple of str
         Names of the parameters whose controls are beside the text.
@@ -106,19 +106,19 @@ class LessonStep:
 
     title: str
     text: str
-    at: StateLink
-    look: str = ""
+    state: StateLink
+    enlarged_picture: str = ""
     animation: Animation | None = None
     question: str = ""
     answer: str = ""
     prediction: Prediction | None = None
     controls: tuple[str, ...] = ()
-    hide: HiddenLayer | None = None
+    hidden_layer: HiddenLayer | None = None
     pictures: tuple[str, ...] = ()
     line: int = field(default=0, compare=False)
 
 
-# Compared by identity, because the values of states are mappings, which are not hashable.
+# Lessons compare by identity, because the values of their states are mappings, which are not hashable.
 @dataclass(frozen=True, eq=False)
 class Lesson:
     """A lesson.

@@ -15,7 +15,7 @@ from markdown_it.token import Token
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 from mdit_py_plugins.front_matter import front_matter_plugin
 
-# A formula in a line and the stops after it, between which a browser would break the line.
+# Matches an inline formula with the punctuation after it, between which a browser would break the line.
 _STOPS = re.compile(r'(<span class="math inline">.*?</span>)([.,;:!?)]+)', re.DOTALL)
 _ELEMENT = re.compile(r"\{http://www\.w3\.org/1998/Math/MathML\}(m[a-z]+)")
 _CHILDREN = {"mfrac": 2, "mroot": 2, "msub": 2, "msup": 2, "munder": 2, "mover": 2, "msubsup": 3, "munderover": 3}
@@ -33,18 +33,18 @@ def formula(latex: str, options: Mapping[str, Any]) -> str:
     try:
         found: str = convert(latex, display="block" if options["display_mode"] else "inline")
         parts = list(ElementTree.fromstring(found).iter())
-    # The library raises errors of many types.
+    # The library raises exceptions of many types.
     except Exception as error:
         raise BadFormula("write it in LaTeX between dollars, and a dollar itself as \\$.") from error
     for part in parts:
         name = _ELEMENT.fullmatch(part.tag)
         if not name or "href" in part.attrib:
             raise BadFormula("only formulas are read here: leave out the HTML.")
-        # The library shows a command that it does not know as text.
+        # The library converts an unknown command to text.
         if unknown := _COMMAND.search(part.text or ""):
-            raise BadFormula(f"{unknown[0]} is not a known command.")
+            raise BadFormula(f"{unknown[0]} is not a known command: use another one.")
         if len(part) != _CHILDREN.get(name[1], len(part)):
-            raise BadFormula("the argument of a command is missing.")
+            raise BadFormula("the argument of a command is missing: add it in braces.")
     return found
 
 
@@ -52,7 +52,7 @@ def formula(latex: str, options: Mapping[str, Any]) -> str:
 def parser() -> MarkdownIt:
     """Return a parser for CommonMark with tables, formulas and front matter; HTML is text."""
     found = _with_plugins(MarkdownIt("commonmark", {"html": False}))
-    # The plugin renders a displayed formula in a line as a <div>, which would end the paragraph.
+    # The plugin renders an inline $$…$$ as a <div>, which would end the paragraph.
     found.add_render_rule("math_inline_double", _display_formula)
     found.add_render_rule("image", _image)
     found.add_render_rule("link_open", _link)

@@ -63,7 +63,7 @@ TRY_THIS = "Try this"
 KEYS = ("state", "example", "look", "pictures", "animate", "controls", "hide", "predict")
 """Names of the settings of a step."""
 _MOST_MINUTES = 600.0
-# The parser in C takes a tenth of the time of that in Python.
+# The C parser is ten times as fast as the Python parser.
 _Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
@@ -140,13 +140,13 @@ def _facts(text: str) -> tuple[str, float]:
     return title.strip(), float(minutes)
 
 
-def read_tries(scene: Scene[Any]) -> Lesson | None:
+def read_suggestions(scene: Scene[Any]) -> Lesson | None:
     """Return the section "Try this" of a scene as a lesson, or None if it has none.  Raises `LessonError`."""
     lines = scene.words.split("\n")
     begin, end = _section(lines)
     if begin == end:
         return None
-    # Keep the line numbers of the file, for error messages.
+    # Keep the line numbers of the file for error messages.
     text = "\n" * (begin + 1) + "\n".join(lines[begin + 1 : end])
     mistakes: list[LessonError] = []
     steps = _steps(text, 4, StateLink(scene.name, scene.defaults()), Images(None), mistakes)
@@ -155,7 +155,7 @@ def read_tries(scene: Scene[Any]) -> Lesson | None:
     return Lesson(scene.name, f"{TRY_THIS}: {scene.title}", 0.0, steps)
 
 
-def without_tries(words: str) -> str:
+def without_suggestions(words: str) -> str:
     """Return the text of a scene without the section "Try this"."""
     lines = words.split("\n")
     begin, end = _section(lines)
@@ -172,7 +172,7 @@ def _section(lines: list[str]) -> tuple[int, int]:
 
 @dataclass(frozen=True)
 class _Part:
-    """The text from a heading to the next one.
+    """The text between two headings.
 
     Attributes
     ----------
@@ -249,7 +249,7 @@ def _yaml(text: str, line: int) -> Any:
             line + (mark.line if mark else 0),
         ) from error
     except RecursionError as error:
-        raise LessonError("this YAML is nested too deeply.", line) from error
+        raise LessonError("this YAML is nested too deeply: write it with fewer levels.", line) from error
     return {} if found is None else found
 
 
@@ -276,12 +276,12 @@ def _steps(
         scene = None if place is None else scenes()[place.scene]
         mistakes += problems_in(part.title, part.line - 1, images, scene)
         mistakes += problems_in(part.text, part.line, images, scene)
-        # Without a first state, the other steps would only say that theirs is missing.
+        # Without a first state, every other step would only report that its own state is missing.
         if place is None:
             break
         if step is not None:
             steps.append(step)
-            place = step.at if step.prediction is None else step.prediction.then
+            place = step.state if step.prediction is None else step.prediction.outcome
     if not parts:
         mistakes.append(LessonError(f"there is no step: begin one with a heading, {'#' * level} Its title.", 1))
     if len(parts) > MAX_STEPS:

@@ -19,7 +19,7 @@ from hess_explorer.lessons.lesson import (
     Prediction,
     StateLink,
 )
-from hess_explorer.protocol.specs import Controlled, Link, NumberSpec, refusal
+from hess_explorer.protocol.specs import ControlSpec, Link, NumberSpec, refusal
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.views.layers import Layer
@@ -28,7 +28,7 @@ from hess_explorer.views.text import digits
 
 _MOST_SECONDS, _MOST_TIME = 600.0, 1e6
 _MOST_NAMES = 6
-# Layers on canvases of the page, which are always shown.
+# These layers lie on canvases of the page, which are always shown.
 _FILLS = ("image", "dots")
 _CURVES, _POINTS = ("multi_line", "line"), ("scatter",)
 
@@ -73,7 +73,7 @@ def state_of_link(text: object, line: int) -> StateLink:
 
 
 def example_of(begins: object, before: StateLink | None, line: int) -> StateLink:
-    """Return the state of the example whose name begins with this text, in the scene of the step before."""
+    """Return the state of the example whose name begins with this text, in the scene of the previous step."""
     scene = next(iter(scenes().values())) if before is None else scenes()[before.scene]
     found = [one for one in scene.presets if isinstance(begins, str) and begins and one.name.startswith(begins)]
     if len(found) != 1:
@@ -99,15 +99,15 @@ def corrections(steps: Iterable[LessonStep]) -> Iterator[LessonError]:
 
 def _places(step: LessonStep) -> Iterator[tuple[str, StateLink]]:
     """Yield the states that a step shows, with their names."""
-    yield "the state of this step", step.at
+    yield "the state of this step", step.state
     if step.prediction:
-        yield "the state of predict", step.prediction.then
+        yield "the state of predict", step.prediction.outcome
     if step.animation and step.animation.name != TIME:
         for end in (step.animation.start, step.animation.end):
-            yield "an end of animate", StateLink(step.at.scene, {**step.at.values, step.animation.name: end})
+            yield "an end of animate", StateLink(step.state.scene, {**step.state.values, step.animation.name: end})
 
 
-# ---- what is shown --------------------------------------------------------------------------------------------------
+# ---- visible elements -----------------------------------------------------------------------------------------------
 
 
 def enlarged_picture_of(value: object, scene: Scene[Any], line: int) -> str:
@@ -124,7 +124,7 @@ def controls_of(value: object, animation: Animation | None, scene: Scene[Any], l
     """Return the names of the controls beside the text; by default that of the animated parameter."""
     if value is None:
         return (animation.name,) if animation and animation.name != TIME else ()
-    return _names_of(value, "controls", [spec.name for spec in scene.specs if isinstance(spec, Controlled)], line)
+    return _names_of(value, "controls", [spec.name for spec in scene.specs if isinstance(spec, ControlSpec)], line)
 
 
 def _names_of(value: object, key: str, allowed: Sequence[str], line: int) -> tuple[str, ...]:

@@ -25,7 +25,7 @@ _MILLIMETRES = 71.0
 @cache
 def _show_in_notebooks() -> None:
     """Enable the display of HoloViews elements in notebooks, unless the user has chosen a backend."""
-    # Options are kept for loaded backends only.
+    # HoloViews keeps options only for loaded backends.
     hv.renderer("bokeh")
     if hv.Store.current_backend == "bokeh":
         hv.extension("bokeh", logo=False)

@@ -44,7 +44,7 @@ class Exploration:
         self._ready = threading.Event()
         port = free_port()
         self.url = f"{_address(port)}{first.link}"
-        # A separate process, so that the page and the notebook's cells do not block each other.
+        # The server is a separate process, so that the page and the cells of the notebook do not block each other.
         self._child = subprocess.Popen(
             [sys.executable, "-c", _CHILD, str(port)],
             stdin=subprocess.PIPE,
@@ -71,7 +71,7 @@ class Exploration:
         """Handle a message of the server: "ready", "ended", or "state" with the query of the current state."""
         if word == "state":
             self._link = f"?{text}"
-        # Set on "ended" as well, so that the constructor stops waiting.
+        # Set the event on "ended" as well, so that the constructor stops waiting.
         self._ready.set()
 
     def _repr_html_(self) -> str:
@@ -128,7 +128,7 @@ def explore(scene: str = "suslov-hess", /, *, height: int = 640, **parameters: A
 
 def _address(port: int) -> str:
     """Return the address of a server of this notebook for the browser, with a slash at the end."""
-    # JupyterHub and Binder set the folder of the user's server.
+    # JupyterHub and Binder set this prefix of the user's server.
     hub = os.environ.get(_HUB)
     if hub is not None:
         return f"{hub}proxy/{port}/"

@@ -310,7 +310,7 @@ def _slider(system: System, name: str, field: str, default: float, ends: tuple[f
         label=label.format(name),
         doc=doc,
         group=group,
-        means=system.name,
+        meaning=system.name,
     )
 
 

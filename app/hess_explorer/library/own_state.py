@@ -86,7 +86,7 @@ class OwnState(State):
 
     @property
     def periodic_orbit(self) -> NotPeriodic | SectionPeriodicOrbit:
-        """The periodic orbit in place of the chosen one; this scene does not search for any."""
+        """The placeholder for a periodic orbit, because this scene does not search for periodic orbits."""
         return NotPeriodic()
 
     orbit = part(lambda s: BodyOrbit(s, max_step=s.max_step))

@@ -89,7 +89,7 @@ class SceneState:
 
     @property
     def periodic(self) -> Any:
-        """The `PeriodicOrbit` shown in the section; None without one.
+        """The `PeriodicOrbit` shown in the section; None without a periodic orbit.
 
         Raises
         ------
@@ -285,7 +285,7 @@ class SceneState:
             raise InvalidParameter(
                 f"The file format {path.suffix!r} is not supported: choose one of .{', .'.join(_ENDINGS)}."
             )
-        # Imported here, because drawing needs libraries that data do not.
+        # Imported here, because numerical data need no drawing libraries.
         from hess_explorer.headless.file import content
 
         write_atomically(path, content(self._picture_data(picture), FileRequest(kind, width, black, seconds)))
@@ -458,7 +458,7 @@ def _validate(spec: Spec, value: Any) -> Value:
 
 
 def _first(state: Any, names: tuple[str, ...]) -> Any:
-    """Return the first of these properties that the state of a scene has, or None."""
+    """Return the first existing property of a scene's state among these names, or None."""
     return next(
         (
             getattr(state, name)

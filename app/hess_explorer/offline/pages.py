@@ -99,10 +99,10 @@ def _drag_values(scene: Scene[Any]) -> Values:
     Sections and diagrams shaded by density take seconds at full accuracy, so their sliders move at the accuracy of a
     drag.
     """
-    return {"accuracy": DRAFT.name} if accumulates(scene) else {}
+    return {"accuracy": DRAFT.name} if has_density_shading(scene) else {}
 
 
-def accumulates(scene: Scene[Any]) -> bool:
+def has_density_shading(scene: Scene[Any]) -> bool:
     """Return whether the pictures of a scene are shaded by the density of very many points."""
     return isinstance(getattr(scene.state, "density", None), part)
 
@@ -111,15 +111,15 @@ def _families(lesson: Lesson, count: int) -> list[StateFamily]:
     """Return the distinct states of the steps, with the sliders that the steps name or animate."""
     found: dict[str, tuple[Scene[Any], Values, dict[str, set[float]]]] = {}
     for step in lesson.steps:
-        scene = scenes()[step.at.scene]
-        for state in (step.at, *([step.prediction.then] if step.prediction else [])):
+        scene = scenes()[step.state.scene]
+        for state in (step.state, *([step.prediction.outcome] if step.prediction else [])):
             values, _ = scene.admit(state.values)
             _, _, sliders = found.setdefault(encode(scene.name, values), (scene, values, {}))
             for name in step.controls:
                 sliders.setdefault(name, set()).update(slider_of(scene, name, values, count))
         animation = step.animation
         if animation is not None and animation.name != TIME:
-            values, _ = scene.admit(step.at.values)
+            values, _ = scene.admit(step.state.values)
             ends = sorted((animation.start, animation.end))
             _, _, sliders = found[encode(scene.name, values)]
             own = float(values[animation.name])
@@ -129,7 +129,7 @@ def _families(lesson: Lesson, count: int) -> list[StateFamily]:
             scene,
             values,
             [(name, tuple(sorted(each))) for name, each in sliders.items() if each],
-            moving=_drag_values(scene),
+            drag_values=_drag_values(scene),
         )
         for scene, values, sliders in found.values()
     ]
@@ -139,8 +139,12 @@ def _pictures(lesson: Lesson) -> dict[str, list[str]]:
     """Return the pictures of each scene of a lesson: the open ones, and those that its steps name."""
     found: dict[str, list[str]] = {}
     for step in lesson.steps:
-        scene = scenes()[step.at.scene]
-        named = {step.look, step.hide.picture if step.hide else "", step.prediction.picture if step.prediction else ""}
+        scene = scenes()[step.state.scene]
+        named = {
+            step.enlarged_picture,
+            step.hidden_layer.picture if step.hidden_layer else "",
+            step.prediction.picture if step.prediction else "",
+        }
         named |= {*found.get(scene.name, scene.open_pictures)}
         found[scene.name] = [name for name in scene.pictures if name in named]
     return found
@@ -180,13 +184,13 @@ def lesson_page(
     recording.record(_families(lesson, count))
     steps: dict[str, int] = {}
     for number, step in enumerate(lesson.steps):
-        scene = scenes()[step.at.scene]
+        scene = scenes()[step.state.scene]
 
         def number_of(values: Values, name: str = scene.name) -> int:
             return recording.number_of(encode(name, scenes()[name].admit(values)[0]))
 
-        steps[f"{lesson.name}/{number}/false"] = number_of(step.at.values)
-        then = step.prediction.then.values if step.prediction else step.at.values
+        steps[f"{lesson.name}/{number}/false"] = number_of(step.state.values)
+        then = step.prediction.outcome.values if step.prediction else step.state.values
         steps[f"{lesson.name}/{number}/true"] = number_of(then)
     facts = {"lesson": lesson.name, "title": lesson.title, "steps": len(lesson.steps)}
     client: Mapping[str, str] = {"lesson": lesson.name, "step": "1"}

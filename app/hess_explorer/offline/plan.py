@@ -16,7 +16,7 @@ from hess_explorer.protocol.specs import NumberSpec, Values
 from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import InvalidParameter
 
-MOST_STATES = 4000
+MAX_STATES = 4000
 """Maximum number of states of a file."""
 
 _MOST_VALUES = 400
@@ -39,7 +39,7 @@ class StateFamily:
         Names of the varied parameters.
     points : tuple of tuple of float
         Values of these parameters in each state, those of the first state first.
-    moving : mapping of str
+    drag_values : mapping of str
         Values of parameters in all other states, such as the accuracy.
     """
 
@@ -47,12 +47,12 @@ class StateFamily:
     base: Values
     names: tuple[str, ...]
     points: tuple[tuple[float, ...], ...]
-    moving: Values = field(default_factory=dict)
+    drag_values: Values = field(default_factory=dict)
 
     def values(self, point: Sequence[float]) -> Values:
         """Return the values of all parameters at a point."""
-        moving = {} if point == self.points[0] else self.moving
-        return {**self.base, **moving, **dict(zip(self.names, point, strict=True))}
+        drag_values = {} if point == self.points[0] else self.drag_values
+        return {**self.base, **drag_values, **dict(zip(self.names, point, strict=True))}
 
 
 def values_across(low: float, high: float, count: int, own: float) -> tuple[float, ...]:
@@ -122,7 +122,7 @@ def family(
     sliders: Sequence[tuple[str, tuple[float, ...]]],
     *,
     grid: bool = False,
-    moving: Values | None = None,
+    drag_values: Values | None = None,
 ) -> StateFamily:
     """Return the states of sliders through a state.
 
@@ -136,7 +136,7 @@ def family(
         The name and the values of each slider.
     grid : bool
         True for all combinations of their values; by default each slider has its own line through the state.
-    moving : mapping, optional
+    drag_values : mapping, optional
         Values of parameters in all states but the first.
 
     Returns
@@ -147,7 +147,7 @@ def family(
     Raises
     ------
     InvalidParameter
-        If there are more than `MOST_STATES`, or a parameter has two sliders.
+        If there are more than `MAX_STATES`, or a parameter has two sliders.
     """
     names, sides = tuple(name for name, _ in sliders), [values for _, values in sliders]
     if len(set(names)) < len(names):
@@ -155,14 +155,14 @@ def family(
     first = tuple(float(base[name]) for name in names)
     lengths = [*map(len, sides)]
     count = math.prod(lengths) if grid else sum(lengths)
-    if count > MOST_STATES:
-        raise InvalidParameter(f"These are {count} states; a file holds at most {MOST_STATES}: choose fewer values.")
+    if count > MAX_STATES:
+        raise InvalidParameter(f"These are {count} states; a file holds at most {MAX_STATES}: choose fewer values.")
     if grid:
-        # There and back, so that consecutive states are neighbours.
+        # Run through each row in alternating directions, so that consecutive states are neighbours.
         points = _snake(sides)
     else:
         points = [(*first[:i], value, *first[i + 1 :]) for i, side in enumerate(sides) for value in side]
-    return StateFamily(scene, base, names, tuple(dict.fromkeys([first, *points])), moving or {})
+    return StateFamily(scene, base, names, tuple(dict.fromkeys([first, *points])), drag_values or {})
 
 
 def _snake(sides: Sequence[Sequence[float]]) -> list[tuple[float, ...]]:

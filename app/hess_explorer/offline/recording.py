@@ -34,7 +34,7 @@ _CLICKS = ("tap", "pan")
 
 def _constants(one: StateFamily) -> str:
     """Return the constant numbers of a file as text."""
-    idle = one.scene.idle(one.base)
+    idle = one.scene.idle_values(one.base)
     specs = [spec for spec in one.scene.specs if isinstance(spec, NumberSpec) and spec.name not in {*one.names, *idle}]
     return ", ".join(f"{spec.symbol} = {one.base[spec.name]:g}".replace("-", "−") for spec in specs)
 
@@ -123,29 +123,29 @@ class Recording:
             axes = [(plot, plot.ranges(state, plot.first_axes)) for plot in plots]
             texts = {
                 "summary": f"accuracy: {state.work.level_name}",
-                # Without the run times, which say nothing here.
+                # Omit the run times, which depend on the recording machine.
                 "status": " · ".join(state.status()),
                 "derived": "\n".join(report.quantities),
                 "notes": "\n".join([*notes, *report.notes]),
             }
         for plot, ranges in axes:
             wire.put_ranges(plot.name, ranges.x, ranges.y)
-        # A file computes no windows.
+        # A recorded page computes no windows, so the note on a window does not apply.
         for key, text in {**texts, "windowed": ""}.items():
-            wire.say(key, text)
+            wire.set_text(key, text)
         show_controls(scene, values, wire)
         tree, block = wire.pack()
-        # In an order that does not depend on the process.
+        # Sort the columns, so that the file does not depend on the process.
         tree["sources"] = dict(sorted(tree["sources"].items()))
         self._note_columns(scene, tree["sources"])
         strip.add(tree, block, steps_of_plots(axes))
 
     def _note_columns(self, scene: Scene[Any], sources: Mapping[str, Mapping[str, Any]]) -> None:
-        """Record the columns of each data source, which other states have to empty."""
+        """Record the columns of each data source, which states without these columns must clear."""
         canvases = {view.name for view in scene.views if not isinstance(view, Plot)}
         noted = self._columns.setdefault(scene.name, {})
         for source, columns in sources.items():
-            # A canvas reads an absent column as none.
+            # A canvas treats an absent column as empty.
             new = [] if source in canvases else [*columns]
             noted[source] = [*dict.fromkeys([*noted.get(source, []), *new])]
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from hess_explorer.lessons import package_lessons
 from hess_explorer.offline.html import HOME
-from hess_explorer.offline.pages import COUNT, accumulates, lesson_page, state_page
+from hess_explorer.offline.pages import COUNT, has_density_shading, lesson_page, state_page
 from hess_explorer.page.controls import slider_limits
 from hess_explorer.protocol.specs import NumberSpec, Value, encode
 from hess_explorer.scenes import scenes
@@ -136,7 +136,7 @@ def _scene_page(scene: Scene[Any], count: int, home: str) -> bytes:
     light: dict[str, Value] = {"accuracy": DRAFT.name, "points": _CLOUD}
     light = {name: value for name, value in light.items() if name in scene.defaults()}
     values, _ = scene.admit({**scene.defaults(), **light})
-    if "points" in values or accumulates(scene):
+    if "points" in values or has_density_shading(scene):
         count = max(2, count // 4)
     numbers = {spec.name: spec for spec in scene.specs if isinstance(spec, NumberSpec) and spec.name not in _WINDOW}
     names = [name for name in scene.essential if name in numbers][:2]

@@ -100,7 +100,7 @@ class OfflineStrip:
         self._starts: list[int] = []
         self._wholes: list[np.ndarray] = []
         self._residuals: list[np.ndarray] = []
-        # Place in the tree → number of its array in the last state.
+        # Maps a position in the tree to the number of its array in the last state.
         self._last: dict[str, int] = {}
         self.size = 0
 
@@ -135,7 +135,7 @@ class OfflineStrip:
         self._last = places
 
     def _array(self, values: Array, column: str, step: float | None, before: int | None) -> int:
-        """Store an array unless it equals the previous one; return its number."""
+        """Store an array unless it equals its predecessor; return its number."""
         step = _step(values, column, step)
         if before is not None and len(self._wholes[before]) != len(values):
             before = None

@@ -42,7 +42,7 @@ class BackgroundTasks:
         self._next = None
         self.background.stop()
 
-    def end_running(self) -> None:
+    def cancel_running(self) -> None:
         """End the running tasks, which would slow down another state, and allow tasks again."""
         self._stopped = False
         self.background.stop()
@@ -61,7 +61,7 @@ class BackgroundTasks:
         return self._left == 0 if more else self._stopped
 
     @property
-    def has_news(self) -> bool:
+    def has_updates(self) -> bool:
         """True if a task has ended since the state was computed, or none is running or about to start."""
         return self._next is None and not 0 < self.background.backlog == self._left
 
@@ -70,7 +70,7 @@ class BackgroundTasks:
         left = len(report.todo)
         if not more:
             self._followed = set()
-        # Results may add tasks.
+        # A result may create further tasks.
         fresh = [task for task in report.todo if task not in self._followed]
         # After a stop, a picture that enters the viewport does not start tasks again.
         if not self._stopped and (not more or (fresh and not self.background.error)):

@@ -40,11 +40,11 @@ class Explorer(JSComponent):
     )
     sheets = param.Dict(default={}, doc="Style sheets by path, see `styles`.")
 
-    # "page/start.js" renders it.
+    # "page/start.js" renders the page; this module passes the model on.
     _esm = """
 export function render(detail) {
   document.dispatchEvent(new CustomEvent("component", { detail }))
 }
 """
-    # The page has style sheets of its own.
+    # The page loads its own style sheets.
     _stylesheets: ClassVar[list[str]] = []

@@ -58,7 +58,7 @@ class Connection:
 
     def _answer(self, request: Request) -> None:
         self._tell(self._session.answer(request))
-        # A page needs the cores to paint a new state, and sends the next request afterwards.
+        # A new page needs the cores to paint its first state; its next request starts the tasks.
         if not self._session.is_new:
             self._session.start_tasks()
 

@@ -20,7 +20,7 @@ def slider_limits(spec: NumberSpec, limits: Mapping[str, tuple[float, float, flo
 
 def example_of(scene: Scene[Any], values: Values) -> str:
     """Return the name of the example that matches the values, or `CHOOSE`."""
-    idle = scene.idle(values)
+    idle = scene.idle_values(values)
 
     def shown(example: Values) -> bool:
         return all(values[name] == value for name, value in example.items() if name not in idle)
@@ -30,7 +30,7 @@ def example_of(scene: Scene[Any], values: Values) -> str:
 
 def show_controls(scene: Scene[Any], values: Values, wire: Wire) -> None:
     """Send the values and ranges of all controls."""
-    limits, idle = scene.limits(values), scene.idle(values)
+    limits, idle = scene.limits(values), scene.idle_values(values)
     for spec in scene.specs:
         if isinstance(spec, NumberSpec):
             value = idle.get(spec.name, values[spec.name])

@@ -11,11 +11,11 @@ from typing import Any
 from markdown_it import MarkdownIt
 from markdown_it.token import Token
 
-from hess_explorer.lessons import tries
-from hess_explorer.lessons.reading import without_tries
+from hess_explorer.lessons import suggestions
+from hess_explorer.lessons.reading import without_suggestions
 from hess_explorer.page.glossary import explainer
 from hess_explorer.page.lesson_description import steps
-from hess_explorer.protocol.specs import ChoiceSpec, Controlled, NumberSpec
+from hess_explorer.protocol.specs import ChoiceSpec, ControlSpec, NumberSpec
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 from hess_explorer.scenes.framework.swarm import SWARM
@@ -37,25 +37,25 @@ def describe(name: str) -> str:
             "title": scene.title,
             "pictures": [{**view.describe(), "folded": view.button or None} for view in scene.views],
             "controls": [
-                _control(spec) for spec in scene.specs if isinstance(spec, Controlled) and spec.group in groups
+                _control(spec) for spec in scene.specs if isinstance(spec, ControlSpec) and spec.group in groups
             ],
             "essential": list(scene.essential),
             "handle": _handle(scene),
             "moves": scene.moves,
             "lead": list(scene.lead or scene.open_pictures[:1]),
             "groups": groups,
-            "drawn": not all(isinstance(spec, Controlled) for spec in scene.specs),
+            "drawn": not all(isinstance(spec, ControlSpec) for spec in scene.specs),
             "presets": [preset.name for preset in scene.presets],
             "legend": scene.legend,
             "words": _html(scene),
-            "tries": steps(tries().get(scene.name)),
+            "tries": steps(suggestions().get(scene.name)),
             "tracks": [f"data-{name}" for name in scene.tracks],
             "dots": {source: list(columns) for source, columns in scene.dots.items()},
             "angles": list(scene.angles),
             "shades": SHADES,
         }
     )
-    # Bokeh counts its models in each process, and the page has descriptions of several.
+    # Model ids count up in each process, and a page may hold the descriptions of several processes.
     return re.sub(r'"p(\d+)"', rf'"{name}-\1"', text)
 
 
@@ -80,11 +80,11 @@ def _html(scene: Scene[Any]) -> str:
     markdown.add_render_rule("image", drawing)
     explain = explainer()
     markdown.add_render_rule("text", lambda _, tokens, i, *rest: explain(tokens[i].content))
-    html: str = markdown.render(with_formulas(scene.words if scene.origin else without_tries(scene.words)))
+    html: str = markdown.render(with_formulas(scene.words if scene.origin else without_suggestions(scene.words)))
     return html
 
 
-def _control(spec: Controlled) -> dict[str, Any]:
+def _control(spec: ControlSpec) -> dict[str, Any]:
     common = {"name": spec.name, "label": spec.label, "help": spec.doc, "group": spec.group}
     if isinstance(spec, NumberSpec):
         return {"kind": "number", "symbol": spec.symbol, "range": list(spec.softbounds), **common}

@@ -23,7 +23,7 @@ def glossary() -> Mapping[str, str]:
 
 @cache
 def _terms() -> re.Pattern[str]:
-    # Longer terms first: "limit cycles" before "limit cycle".
+    # Match longer terms first: "limit cycles" before "limit cycle".
     longest = sorted(glossary(), key=len, reverse=True)
     return re.compile(rf"\b(?:{'|'.join(map(re.escape, longest))})\b", re.IGNORECASE)
 

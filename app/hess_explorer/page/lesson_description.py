@@ -27,8 +27,8 @@ def _step(step: LessonStep, images: Mapping[str, str]) -> dict[str, Any]:
     found: dict[str, Any] = {
         "title": to_html(step.title, inline=True),
         "text": to_html(step.text, images),
-        "scene": step.at.scene,
-        "look": step.look,
+        "scene": step.state.scene,
+        "look": step.enlarged_picture,
         "pictures": step.pictures,
         "question": to_html(step.question, images),
         "answer": to_html(step.answer, images),
@@ -36,8 +36,14 @@ def _step(step: LessonStep, images: Mapping[str, str]) -> dict[str, Any]:
     }
     if step.animation:
         found["animation"] = dataclasses.asdict(step.animation)
-    if step.hide:
-        found["hide"] = dataclasses.asdict(step.hide)
+    if step.hidden_layer:
+        found["hide"] = dataclasses.asdict(step.hidden_layer)
     if step.prediction:
-        found["prediction"] = {name: value for name, value in vars(step.prediction).items() if name != "then"}
+        asked = step.prediction
+        found["prediction"] = {
+            "picture": asked.picture,
+            "source": asked.source,
+            "columns": asked.columns,
+            "what": asked.kind,
+        }
     return found

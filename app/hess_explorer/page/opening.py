@@ -1,4 +1,4 @@
-"""Parse the link of a page.  The document and the websocket both do this, with the same result."""
+"""Parse the link of a page, in the same way for the document and the websocket."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from urllib.parse import urlencode
 from hess_explorer.lessons import package_lessons
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.requested import scene_and_values
-from hess_explorer.protocol.specs import CLIENT, ChoiceSpec, Controlled, Link, Names, NumberSpec, Values
+from hess_explorer.protocol.specs import CLIENT, ChoiceSpec, ControlSpec, Link, Names, NumberSpec, Values
 from hess_explorer.scenes import scenes
 from hess_explorer.scenes.framework.scene import Scene
 
@@ -86,8 +86,8 @@ def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> 
     most = len(reading.steps) if reading else 1
     at = int(float(link.value(NumberSpec("step", "step", "Step", 1.0, (1.0, most), 1.0, (1.0, most)))))
     if reading and "scene" not in link.texts:
-        # A link with only a step opens the state of that step.
-        place = reading.steps[at - 1].at
+        # A link that names only a step opens the state of that step.
+        place = reading.steps[at - 1].state
         scene, state = scenes()[place.scene], dict(place.values)
     else:
         scene, state = scene_and_values(link, next(iter(scenes())))
@@ -102,10 +102,10 @@ def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> 
         "step": str(at) if reading else "",
     }
     theme = str(link.value(THEME))
-    # An empty text is left out of the URL.
+    # The URL has no parameter for an empty text.
     client["theme"] = "" if theme == THEME.default else theme
     client |= {spec.name: str(link.value(spec)).strip("0") for spec in (PRESENT, EMBED)}
-    # An empty list means the default.
+    # An empty list stands for the default.
     parts = {spec.name: str(link.value(spec)) or spec.default for spec in _embedding(scene)}
     pictures = scene.open_pictures
     # The steps of an embedded lesson, which may be of several scenes, choose pictures and controls themselves.
@@ -117,7 +117,7 @@ def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> 
 
 def _embedding(scene: Scene[Any]) -> tuple[Names, Names]:
     """Return the parameters "pictures" and "controls" of an embedded page; "none" means no control."""
-    controls = tuple(spec.name for spec in scene.specs if isinstance(spec, Controlled))
+    controls = tuple(spec.name for spec in scene.specs if isinstance(spec, ControlSpec))
     return (
         Names("pictures", "Embedded pictures", scene.pictures, len(scene.pictures), ",".join(scene.open_pictures)),
         Names("controls", "Embedded controls", (*controls, "none"), len(controls), ",".join(scene.essential)),

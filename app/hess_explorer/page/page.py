@@ -1,4 +1,4 @@
-"""The page: one component of Panel that holds everything.
+"""The page, a single Panel component.
 
 Panel does not handle states; they use a separate websocket ("server/websockets.py").
 """
@@ -26,7 +26,7 @@ logger = logging.getLogger("hess_explorer")
 
 _FILES = {
     "program": f"hess-explorer {version('hess-explorer')}",
-    "formats": [[kind, one.words, one.holds] for kind, one in FORMATS.items() if one.words],
+    "formats": [[kind, one.words, one.content] for kind, one in FORMATS.items() if one.words],
     "width": [*WIDTHS, FileRequest.width],
     "seconds": [*SERVED_SECONDS, FileRequest.seconds],
 }
@@ -42,7 +42,7 @@ def page(own: Sequence[Lesson] = ()) -> Any:
     """
     try:
         return _page(_query(), own)
-    # Log any error; the user sees one sentence.
+    # Log any error; the user sees a short message.
     except Exception:
         logger.exception("the page could not be built")
         return pn.pane.Str("The page could not be built. Remove the part of its address after “?” and try again.")

@@ -72,10 +72,10 @@ class RequestedState:
         """Go to the state of a link, or of an undo step."""
         link = Link(query)
         scene, values = scene_and_values(link, self.scene.name)
-        self.go(StateLink(scene.name, values))
+        self.go_to(StateLink(scene.name, values))
         self.notes = link.notes
 
-    def go(self, place: StateLink) -> None:
+    def go_to(self, place: StateLink) -> None:
         """Go to a state, with all of its values."""
         scene = scenes()[place.scene]
         if scene.name == self.scene.name:
@@ -95,6 +95,6 @@ class RequestedState:
                 continue
             value, note = spec.read(given)
             self.notes += [note] if note else []
-            # An invalid formula keeps the previous one.
+            # An invalid formula leaves the previous one unchanged.
             if note is None or not isinstance(spec, Formula):
                 self.values[name] = value

@@ -10,7 +10,7 @@ import numpy as np
 
 from hess_explorer.compute.background import Background
 from hess_explorer.compute.budget import ClientGone
-from hess_explorer.lessons import tries
+from hess_explorer.lessons import suggestions
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.page.background_tasks import BackgroundTasks
 from hess_explorer.page.controls import show_controls
@@ -63,21 +63,21 @@ class Session:
         self.wire = Wire()
         self._lessons = lessons
         self._tasks = BackgroundTasks()
-        # The browser keeps the pictures of all visited scenes; a stage records what it has drawn on them.
+        # The browser keeps the pictures of all visited scenes; each stage records what is drawn there.
         self._stages: dict[str, Stage[Any]] = {}
         self._described: set[str] = set()
         self._in_sight = pictures
         self._held = False
         self._number = 0
-        # True if the last request asked for another state, False if it asked again for the current one.
+        # True if the last request changed the state, False if it repeated the current one.
         self.is_new = False
         self.values: Values = {}
-        # Scene, requested values and notes of the drawn state, and its pictures; None if nothing valid is drawn.
+        # Scene, requested values, notes and pictures of the drawn state; None if nothing valid is drawn.
         self._drawn: tuple[str, Values, list[str]] | None = None
         self._drawn_pictures: Collection[str] = ()
         # Names of the values that the model has limited.
         self._limited: set[str] = set()
-        # True if a control shows a wrong value.
+        # True if a control shows a value other than that of the state.
         self._mistaken = False
 
     @property
@@ -98,7 +98,7 @@ class Session:
         return self._tasks.background
 
     def answer(self, request: Request) -> Response:
-        """Process a request and return the response; a requested state always gets one."""
+        """Process a request and return the response, which contains a state if the request asked for one."""
         scene = self.scene
         try:
             # `hess_mechanics` checks its results for overflow itself, so NumPy's warnings would be noise.
@@ -175,7 +175,7 @@ class Session:
         if request.step is not None:
             self._go(request.step)
         if self._drawn is None or (self.scene.name, wanted.values) != self._drawn[:2]:
-            self._tasks.end_running()
+            self._tasks.cancel_running()
         if request.stop:
             self._tasks.stop()
 
@@ -183,7 +183,7 @@ class Session:
         self.requested.change(values)
         for name, spec in self.requested.specs.items():
             if isinstance(spec, Formula) and name in values and (note := spec.read(values[name])[1]):
-                self.wire.say(f"error-{name}", note)
+                self.wire.set_text(f"error-{name}", note)
         # The control must be corrected even if the state does not change.
         self._mistaken |= any(self.values.get(name) != value for name, value in values.items())
 
@@ -196,7 +196,7 @@ class Session:
                     # The input field must show the number, even if it is unchanged.
                     self._mistaken = True
                 except NotANumber as refusal:
-                    self.wire.say(f"error-{name}", str(refusal))
+                    self.wire.set_text(f"error-{name}", str(refusal))
 
     def _pick(self, picked: PicturePoint | PictureBox) -> None:
         """Set the values that a click or a box selects, or append the reason why it selects none."""
@@ -218,14 +218,14 @@ class Session:
                 text = self.stage.hover(point.picture, point.x, point.y)
             except ModelError as error:
                 text = str(error)
-            self.wire.say(f"hover-{point.picture}", text)
+            self.wire.set_text(f"hover-{point.picture}", text)
 
     def _go(self, step: StepChoice) -> None:
         """Go to the state of a step of a lesson, or of a suggestion of the scene."""
-        lesson = self._lessons.get(step.lesson) or tries().get(step.lesson)
+        lesson = self._lessons.get(step.lesson) or suggestions().get(step.lesson)
         if lesson is not None and 0 <= step.number < len(lesson.steps):
             found = lesson.steps[step.number]
-            self.requested.go(found.prediction.then if step.revealed and found.prediction else found.at)
+            self.requested.go_to(found.prediction.outcome if step.revealed and found.prediction else found.state)
 
     def _update(self, held: bool) -> None:
         """Draw the requested state unless it is already drawn."""
@@ -241,7 +241,7 @@ class Session:
         )
         if self.is_new:
             self._draw()
-        elif self._tasks.progress is not None and self._tasks.has_news:
+        elif self._tasks.progress is not None and self._tasks.has_updates:
             self._draw(more=True)
 
     def _draw(self, more: bool = False) -> None:
@@ -278,14 +278,14 @@ class Session:
     def _say_limits(self, limited: set[str], notes: list[str]) -> None:
         """Say beside the controls of limited values why they are limited."""
         for name in limited | self._limited:
-            self.wire.say(f"limit-{name}", "\n".join(notes) if name in limited else "")
+            self.wire.set_text(f"limit-{name}", "\n".join(notes) if name in limited else "")
         self._limited = limited
 
     def _say(self, report: Report, notes: list[str]) -> None:
-        self.wire.say("summary", report.summary)
-        self.wire.say("status", report.status)
-        self.wire.say("notes", "\n".join([*self.requested.notes, *notes, *report.notes]))
-        self.wire.say("derived", "\n".join(report.quantities))
+        self.wire.set_text("summary", report.summary)
+        self.wire.set_text("status", report.status)
+        self.wire.set_text("notes", "\n".join([*self.requested.notes, *notes, *report.notes]))
+        self.wire.set_text("derived", "\n".join(report.quantities))
 
     def _refuse(self, sentence: str) -> Report:
         """Clear the pictures and show the reason."""

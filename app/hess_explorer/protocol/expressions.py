@@ -16,7 +16,7 @@ from typing import Any
 
 from simpleeval import InvalidExpression, SimpleEval
 
-MOST = 100
+MAX_LENGTH = 100
 """Maximum length of an expression, in characters."""
 
 FUNCTIONS: Mapping[str, Callable[..., float]] = {
@@ -26,7 +26,7 @@ FUNCTIONS: Mapping[str, Callable[..., float]] = {
 
 _NAMES = {"pi": math.pi, "π": math.pi, "e": math.e}
 _KINDS = (ast.Expr, ast.Constant, ast.Name, ast.UnaryOp, ast.BinOp, ast.Call)
-# `math.pow`, because powers of integers may have millions of digits.
+# `math.pow` returns floats; `**` could compute integers with millions of digits.
 _OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,
@@ -36,7 +36,7 @@ _OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
     ast.USub: operator.neg,
     ast.UAdd: operator.pos,
 }
-# No quotes, commas or brackets, and dots only in numbers: such a text can only produce numbers.
+# Without quotes, commas and brackets, and with dots only in numbers, a text can only produce numbers.
 _TEXT = re.compile(
     r"(?>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![\w.])|[A-Za-zπ]+[0-9]*(?![\w.])|[-+*/()]|\s)+"
 )
@@ -94,8 +94,8 @@ def evaluate(text: str) -> float:
         If the text is too long, cannot be parsed, or has no finite value.
     """
     text = to_python(text)
-    if len(text) > MOST:
-        raise NotANumber(f"The expression is longer than {MOST} characters: shorten it.")
+    if len(text) > MAX_LENGTH:
+        raise NotANumber(f"The expression is longer than {MAX_LENGTH} characters: shorten it.")
     if not _TEXT.fullmatch(text):
         raise NotANumber("This is not a number: type one like 1.5, 1e-8, pi/3, sqrt(2) or 1/7.")
     try:

@@ -15,7 +15,7 @@ from typing import Any
 from hess_explorer.protocol.expressions import Unreadable, calculate, to_python
 from hess_mechanics.errors import InvalidParameter
 
-MOST = 200
+MAX_LENGTH = 200
 """Maximum length of a formula, in characters."""
 _DEGREE = 6
 _LARGEST = 1e6
@@ -172,8 +172,8 @@ def _read(
     plain: str, allowed: re.Pattern[str], names: Mapping[str, Any], functions: Mapping[str, Any], kind: str
 ) -> dict[Exponents, float]:
     """Return the coefficients of a Python expression.  Raises `InvalidParameter`."""
-    if len(plain) > MOST:
-        raise InvalidParameter(f"The formula is longer than {MOST} characters: shorten it.")
+    if len(plain) > MAX_LENGTH:
+        raise InvalidParameter(f"The formula is longer than {MAX_LENGTH} characters: shorten it.")
     if not plain:
         return {}
     try:

@@ -195,7 +195,7 @@ class Response:
 
     def encode(self) -> bytes:
         """Return the binary frame; empty if the response has no content."""
-        # Not `asdict`, which makes a deep copy.
+        # `asdict` would make a deep copy.
         state = "" if self.state is None else json.dumps(vars(self.state))
         parts = {"scene": self.scene, "lesson": self.lesson, "state": state, "show": self.show}
         fields = ", ".join(f'"{name}": {text}' for name, text in parts.items() if text)

@@ -74,7 +74,7 @@ class Formula:
 
     Attributes
     ----------
-    reads : callable
+    parse : callable
         Parses the formula; raises `InvalidParameter` for an invalid text.
     """
 
@@ -83,13 +83,13 @@ class Formula:
     default: str
     doc: str = ""
     group: Group = "Body"
-    reads: Callable[[str], object] = polynomial
+    parse: Callable[[str], object] = polynomial
 
     def read(self, raw: Value) -> tuple[str, str | None]:
         """Return the formula without surrounding spaces; if it is invalid, the default and a note."""
         text = str(raw).strip()
         try:
-            self.reads(text)
+            self.parse(text)
         except InvalidParameter as error:
             return self.default, f"{self.label}: {str(error).removesuffix('.')}: it was ignored."
         return text, None
@@ -169,10 +169,10 @@ def points_of(text: Value) -> list[tuple[float, float]]:
     return [(float(x), float(y)) for x, y in pairs]
 
 
-Controlled = NumberSpec | ChoiceSpec | Formula
+ControlSpec = NumberSpec | ChoiceSpec | Formula
 """Parameters with a control."""
 
-Spec = Controlled | Points | Names
+Spec = ControlSpec | Points | Names
 
 CLIENT: tuple[NumberSpec, ...] = (
     NumberSpec("t", "t", "Time", 0.0, (0.0, 1000.0), 0.0, (0.0, 1e6)),

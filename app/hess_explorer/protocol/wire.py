@@ -33,7 +33,7 @@ class Wire:
         """Set the axis ranges of a plot."""
         self._ranges[plot] = [*x, *y]
 
-    def say(self, key: str, text: str) -> None:
+    def set_text(self, key: str, text: str) -> None:
         """Set the text of the `Text` component of that key."""
         self._texts[key] = text
 

@@ -60,13 +60,13 @@ class RoomDrawing:
         self._lessons = lessons
         self._queue = RequestQueue()
         self._show: Show | None = None
-        # Computes what is missing in the current state.
+        # Computes the missing results of the current state.
         self._session: Session | None = None
         self._left = 0
         self._progress: tuple[int, int] | None = None
 
     @property
-    def has_news(self) -> bool:
+    def has_updates(self) -> bool:
         """True if parts of the state have been computed since it was drawn."""
         return self._session is not None and self._session.background.backlog != self._left
 
@@ -105,8 +105,8 @@ class RoomDrawing:
         answer = session.answer(Request(requested=0))
         state = answer.state
         assert state is not None, "a request for a state has one in its answer"
-        # Running tasks of the same state go on: their results are in the cache, where the new session finds them.
-        # Tasks that have ended without a result would end so again.
+        # Running tasks of the same state continue: the new session finds their results in the cache. Tasks that ended
+        # without a result would only fail again.
         if not (is_same and (is_going or state.progress in (None, self._progress))):
             if self._session is not None:
                 self._session.background.stop()
@@ -130,14 +130,14 @@ class RoomDrawing:
             told["step"] = {**json.loads(describe_lesson(lesson))["steps"][show.step - 1], "answer": ""}
             told["lesson"] = lesson.title
             # The lecturer may have left the scene of the step.
-            if step.prediction is None or (scene.name, picture) != (step.at.scene, step.prediction.picture):
+            if step.prediction is None or (scene.name, picture) != (step.state.scene, step.prediction.picture):
                 told["step"].pop("prediction", None)
         return json.dumps(told)
 
 
 def _picture(scene: Scene[Any], step: LessonStep | None, enlarged: str) -> str:
     """Return the picture for followers: that of a prediction, the enlarged one, or the first one."""
-    look = step.look if step is not None else ""
+    look = step.enlarged_picture if step is not None else ""
     guess = step.prediction.picture if step is not None and step.prediction else ""
     return next(name for name in (guess, enlarged, look, *scene.open_pictures) if name in scene.pictures)
 

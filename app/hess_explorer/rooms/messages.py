@@ -26,7 +26,7 @@ from hess_explorer.protocol.specs import MAX_QUERY
 CODE = r"[2-9A-HJ-NP-Z]{6}"
 """Regular expression for the code of a room: no letter or digit that is easily mistaken for another one."""
 
-MOST_POINTS = 40
+MAX_POINTS = 40
 """Maximum number of points of a guessed curve, as in "pictures/guess.js"."""
 
 _NAME = re.compile(r"[\w-]{8,40}")
@@ -114,7 +114,7 @@ def parse(message: Any) -> Message | None:
             return End()
         case {"show": dict(shown)}:
             return _show(shown)
-        case {"guess": list(points), "step": int(step)} if 0 < len(points) <= MOST_POINTS:
+        case {"guess": list(points), "step": int(step)} if 0 < len(points) <= MAX_POINTS:
             found = [point for point in map(_point, points) if point is not None]
             return Guess(step, tuple(found)) if len(found) == len(points) else None
     return None

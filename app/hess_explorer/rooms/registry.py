@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from hess_explorer.lessons.lesson import Lesson
 from hess_explorer.rooms.room import Room
 
-MOST_ROOMS = 20
+MAX_ROOMS = 20
 
 
 class Rooms:
@@ -33,7 +33,7 @@ class Rooms:
     @property
     def is_full(self) -> bool:
         """True if no other room can be opened."""
-        return len(self._rooms) >= MOST_ROOMS
+        return len(self._rooms) >= MAX_ROOMS
 
     def open(self, code: str) -> Room:
         """Open a room, which is removed when it ends."""

@@ -21,7 +21,7 @@ GRACE = 60.0
 """Seconds that a room waits for a lecturer whose page was closed or reloaded."""
 LONGEST = 3 * 3600.0
 """Maximum age of a room in seconds."""
-MOST_FOLLOWERS = 500
+MAX_FOLLOWERS = 500
 AT_ONCE, PAUSE = 10, 0.005
 """Number of followers that a state is sent to at once, and the seconds before the next ones.
 
@@ -37,7 +37,7 @@ class Member(Protocol):
     """The websocket of a lecturer or follower."""
 
     def put(self, kind: str, message: str | bytes) -> None:
-        """Send a message; it replaces a waiting one of the same kind."""
+        """Send a message, which replaces a waiting message of the same kind."""
 
     def close(self, code: int, reason: str) -> None:
         """Close the websocket."""
@@ -77,7 +77,7 @@ class Room:
         return hmac.compare_digest(self.key.encode(), key.encode("utf-8", "replace"))
 
     def lead(self, member: Member) -> None:
-        """Make a websocket the lecturer's; it replaces an earlier one."""
+        """Make a websocket the lecturer's, in place of an earlier websocket."""
         if self._lead is not None:
             self._lead.close(*REPLACED)
         self._lead, self._counts = member, None
@@ -85,7 +85,7 @@ class Room:
 
     def follow(self, member: Member, name: str) -> bool:
         """Add a follower and send it the last state; return False if the room is full."""
-        if len(self._followers) >= MOST_FOLLOWERS:
+        if len(self._followers) >= MAX_FOLLOWERS:
             return False
         self._followers[member] = name
         if self._frames is not None:
@@ -117,8 +117,8 @@ class Room:
         name, asked, show = self._followers.get(member), self._prediction, self._show
         if name is None or asked is None or show is None or show.revealed or guess.step != show.step:
             return
-        if name in self._guesses or len(self._guesses) < MOST_FOLLOWERS:
-            self._guesses[name] = guess.points[-1:] if asked.what == "point" else guess.points
+        if name in self._guesses or len(self._guesses) < MAX_FOLLOWERS:
+            self._guesses[name] = guess.points[-1:] if asked.kind == "point" else guess.points
             self._news.set()
 
     def end(self, member: Member) -> None:
@@ -129,7 +129,7 @@ class Room:
 
     @property
     def _prediction(self) -> Prediction | None:
-        """The prediction of the current step; None without one."""
+        """The prediction of the current step; None without a prediction."""
         step = step_of(self._lessons, self._show) if self._show is not None else None
         return step.prediction if step is not None else None
 
@@ -156,7 +156,7 @@ class Room:
         return self._is_over or now - self._made > LONGEST or (self._lead is None and now - self._left > GRACE)
 
     async def _draw(self) -> None:
-        if self._show is None or (self._is_drawn and not self._drawing.has_news):
+        if self._show is None or (self._is_drawn and not self._drawing.has_updates):
             return
         self._is_drawn = True
         frames = await self._drawing.draw(self._show)

@@ -51,7 +51,7 @@ PRESETS = (
         chosen="1,1.5",
     ),
 )
-"""Each is a rigid body for some I₃₃; the third comes from a search over random bodies."""
+"""Each example is a rigid body for some I₃₃; the third one was found by a search over random bodies."""
 
 
 @dataclass(frozen=True)

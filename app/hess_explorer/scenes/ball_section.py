@@ -115,7 +115,12 @@ class BallSectionState(SectionState):
     low: float = end_of_branch("from")
     high: float = end_of_branch("to")
     upwards: str = coordinate_of_branch(_NAMES)
-    drop: str = choice("Points shown", ("all", _LATE), "all", doc="The later half shows the attractor.")
+    drop: str = choice(
+        "Points shown",
+        ("all", _LATE),
+        "all",
+        doc="The second half of the crossings shows the attractor without the transient.",
+    )
 
     # ---- the motion ---------------------------------------------------------------------------------------------
 
@@ -166,7 +171,7 @@ class BallSectionState(SectionState):
         lambda s: Section(
             s,
             max_steps=_MOST_STEPS,
-            later=s.drop == _LATE,
+            second_half_only=s.drop == _LATE,
         )
     )
     branch = part(lambda s: SectionBranch(s, s.periodic_orbit, ball.PARAMETERS))
@@ -201,7 +206,7 @@ class BallSectionState(SectionState):
         psi = self.section.chosen_points[:, 0]
         return None if self.section.known_orbits.reason else np.column_stack([psi[:-1], psi[1:]])
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_section(self) -> Caption:
         if self.section_caption is not None:
@@ -217,12 +222,14 @@ class BallSectionState(SectionState):
         if self.section.known_orbits.reason:
             return Caption("Omitted: too many steps.")
         if is_reversible(self.body):
-            return Caption("One point: every orbit that returns closes.", "Proved by the symmetry γ₃ → −γ₃, t → −t.")
+            return Caption(
+                "A single point: every returning orbit is periodic.", "Proved by the symmetry γ₃ → −γ₃, t → −t."
+            )
         if self.closed_orbit is not None:
-            return Caption("Each ψ against the next.", f"Period {self.closed_orbit.orbit.period}.")
+            return Caption("ψ of each crossing against the next ψ.", f"Period {self.closed_orbit.orbit.period}.")
         if has_area_integral(self.body):
-            return Caption("A curve: there is another integral.", "ω₁γ₁ + ω₂γ₂ is constant.")
-        return Caption("Each ψ against the next.")
+            return Caption("A curve, because of an additional integral.", "ω₁γ₁ + ω₂γ₂ is constant.")
+        return Caption("ψ of each crossing against the next ψ.")
 
     def quantities(self) -> Iterator[str]:
         """Yield the energies and the start of the orbit."""
@@ -240,13 +247,13 @@ SCENE = Scene(
     __file__,
     place=10,
     presets=PRESETS,
-    measures=section_trials(),
+    level_trials=section_trials(),
     charts=Charts(motion_charts(SYSTEM, lambda s: s.chosen_start), over=("psi", "delta")),
     group="Ball",
     essential=("h", "I13", "D", "psi"),
     handle="psi",
     answers=(
-        Answer("Here a symmetry closes every orbit that returns.", lambda s: is_reversible(s.body)),
+        Answer("A symmetry makes every returning orbit periodic.", lambda s: is_reversible(s.body)),
         Answer("Each dot is one return: dots on a curve look regular, a cloud of dots looks chaotic."),
     ),
     lead=("section",),

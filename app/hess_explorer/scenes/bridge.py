@@ -134,8 +134,8 @@ class BothSides(State):
         f = {"f": slider_within(f_max(self.h))} if self.h > -1.0 else {}
         return {"h": (-0.99, max(4.0, self.h), 0.01), **f}
 
-    def idle(self) -> Mapping[str, float]:
-        """Return the parameters of the other side, translated from the given one.  Raises `ModelError`."""
+    def idle_values(self) -> Mapping[str, float]:
+        """Return the parameters of the other side, translated from those of the given side.  Raises `ModelError`."""
         hess, heavy = self.bridge.hess, self.bridge.heavy
         if self.given == HEAVY:
             body = {"I22": hess.I22, "I23": hess.I23, "b3": hess.b3, "share": share_of(heavy)}
@@ -145,7 +145,7 @@ class BothSides(State):
 
     def meanings(self) -> Mapping[str, str]:
         """Return the meaning of h and f on the given side."""
-        return dict.fromkeys("hf", (known.H_HEAVY if self.given == HEAVY else known.H_HESS).means)
+        return dict.fromkeys("hf", (known.H_HEAVY if self.given == HEAVY else known.H_HESS).meaning)
 
     def adjustments(self, before: BothSides) -> Values:
         """Return the parameters of the same motion after a change of the given side.  Raises `ModelError`."""
@@ -155,7 +155,7 @@ class BothSides(State):
         bridge = before.bridge
         translate = bridge.in_units_of_b if before.given == HEAVY else bridge.from_units_of_b
         h, f = map(_without_round_off, translate(before.h, before.f))
-        shown = before.idle()
+        shown = before.idle_values()
         # Units b = 1 hide the sign of b; here b > 0, so μ < 0 reverses the vertical.
         return {**others, **shown, **({"b3": -abs(shown["b3"])} if "b3" in shown else {}), "h": h, "f": f}
 
@@ -242,7 +242,7 @@ class BothSides(State):
     def difference(self) -> SuslovDistance:
         """The difference between the two sides, each integrated independently."""
         most = min(
-            _IN_A_DRAG if self.dragging else _MOST_PERIODS,
+            _IN_A_DRAG if self.is_preview else _MOST_PERIODS,
             _MOST_GROWTH / (1.0 + 2.0 * math.pi * abs(self.bridge.hess.a)),
         )
         end = min(self.span, most * self.period)
@@ -261,12 +261,14 @@ class BothSides(State):
         start = torus_plane.phases_at_returns(found, self.map, self.iterates)
         seen = self.peek("difference")
         apart = (
-            np.full(found.times.size, LG_OF_0) if seen is None else np.interp(found.times, seen.times, lg(seen.held))
+            np.full(found.times.size, LG_OF_0)
+            if seen is None
+            else np.interp(found.times, seen.times, lg(seen.constrained))
         )
         l, x = self.andoyer.T
         return torus_plane.track_columns(found, phi_start=start, l=l, x=x, apart=apart)
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_torus(self) -> Caption:
         h, f = digits(self.map.h), digits(self.map.f)
@@ -278,7 +280,7 @@ class BothSides(State):
         return Caption("The Hess relation holds along the orbit.", f"H = {digits(H)}, F₁ = {digits(F1)}.")
 
     def _about_difference(self) -> Caption:
-        held, free = (digits(float(one.max()), 2) for one in (self.difference.held, self.difference.free))
+        held, free = (digits(float(one.max()), 2) for one in (self.difference.constrained, self.difference.free))
         end = digits(float(self.difference.times[-1]))
         return Caption(numbers=f"At most {held} up to t = {end} if r·M = 0 is imposed; {free} if not.")
 
@@ -319,7 +321,7 @@ class BothSides(State):
         if shown < self.span * (1.0 - 1e-9):
             yield f"The orbit is drawn up to t = {digits(shown)}: {MAX_RETURNS} returns."
         if self.peek("difference") and self.difference.error > hess_case.UNSURE:
-            yield hess_case.BY_THE_UNSTABLE_CYCLE
+            yield hess_case.NEAR_UNSTABLE_CYCLE
 
 
 SCENE = Scene(
@@ -366,7 +368,7 @@ SCENE = Scene(
                 ),
                 time_graph(
                     "held",
-                    lambda s: (s.difference.times, lg(s.difference.held)),
+                    lambda s: (s.difference.times, lg(s.difference.constrained)),
                     color=theme.ORBIT,
                     label="difference, with r·M = 0 imposed",
                     tag="r·M = 0 imposed",
@@ -378,7 +380,7 @@ SCENE = Scene(
                 map=lambda s: s.map,
                 iterates=lambda s: s.iterates,
                 caption=lambda s: circle.caption(s.map),
-                title="Circle map of both",
+                title="Circle map of both systems",
                 dot=("phi_start", "phi"),
                 on_click=lambda s, x, y: {"phi0": x},
             ),

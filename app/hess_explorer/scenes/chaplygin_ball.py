@@ -189,7 +189,7 @@ class ChaplyginBall(State):
         places = plane.label_points(self.strip.sigma2(angle)[0], self.strip.sigma1(angle)[0], self.half_width)
         return [(float(x), float(y), name) for (x, y), name in zip(places, ("σ₂", "σ₁"), strict=True)]
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_sphere(self) -> Caption:
         left, last = in_digits(math.cos(self.theta)), in_digits(self.Gamma[-1])
@@ -240,16 +240,18 @@ _MEASURES: tuple[Trial[ChaplyginBall], ...] = (
     Trial(
         Kind.MAP,
         ("curve",),
-        lambda s, plan: s.phases(plan.side(_PHASES), _EXACT if plan.level.aside else plan.level).compute().theta_plus,
+        lambda s, plan: (
+            s.phases(plan.side(_PHASES), _EXACT if plan.level.is_perturbed else plan.level).compute().theta_plus
+        ),
         lambda s, found, truth: curve_error(found, truth, math.pi),
-        alike="cells",
+        shared_setting="cells",
     ),
     Trial(
         Kind.CURVE,
         ("omega",),
         lambda s, plan: s.strip_orbits(plan.side(_ORBITS), plan.level).compute(),
         lambda s, found, truth: math.sqrt(s.h) * 0.5 * PIXELS / s.half_width * largest_distance(found, truth),
-        alike="cells",
+        shared_setting="cells",
     ),
 )
 
@@ -259,7 +261,7 @@ SCENE = Scene(
     __file__,
     place=9,
     presets=PRESETS,
-    measures=_MEASURES,
+    level_trials=_MEASURES,
     charts=Charts(
         (
             ChartSource(
@@ -273,7 +275,7 @@ SCENE = Scene(
     group="Ball",
     essential=("D", "h", "theta", "phi"),
     handle="phi",
-    answers=(Answer("Off both lines, motions go from the dashed one to a uniform rotation on the solid one."),),
+    answers=(Answer("Motions off both lines go from the dashed line to a uniform rotation on the solid line."),),
     lead=("curve",),
     title="Chaplygin ball",
     summary="A ball rolls inside the body: orbits go from Nᵘ to Nˢ in a strip between two ellipses.",
@@ -282,7 +284,7 @@ SCENE = Scene(
     views=(
         body_picture(ball=True, field=False),
         plane.picture(
-            lambda s: Caption("From Nᵘ to Nˢ.", "Every orbit lies in the strip between σ₂ and σ₁."),
+            lambda s: Caption("Orbits go from Nᵘ to Nˢ.", "Every orbit lies in the strip between σ₂ and σ₁."),
             lambda s: s.half_width,
             layers=(
                 region(
@@ -291,16 +293,19 @@ SCENE = Scene(
                     edge=theme.MUTED,
                     label="impossible",
                     tag="impossible",
-                    moving=True,
+                    is_overlay=True,
                 ),
                 names("names", ChaplyginBall.ellipse_names),
                 plane.arcs(lambda s: [track for track, _ in s.all_orbits if len(track) > 1]),
-                *plane.halves(
-                    lambda s, _: s.strip.stable, lambda s, _: s.strip.unstable, ("Nˢ, circle joined", "Nᵘ, circle left")
+                *plane.half_lines(
+                    lambda s, _: s.strip.stable,
+                    lambda s, _: s.strip.unstable,
+                    ("Nˢ, limit circle for t → ∞", "Nᵘ, limit circle for t → −∞"),
                 ),
                 plane.band(lambda s: s.proof.band),
                 plane.orbit("orbits; the chosen one bold"),
-                # Placed evenly over the strip: the middles of the orbits, where all are slow, would cluster.
+                # Place the arrows evenly over the strip: all orbits are slow near their middles, where arrows would
+                # cluster.
                 arrows("arrows", lambda s: plane.arrows_at(s.all_orbits), color=theme.ORBIT, alpha=0.8),
             ),
         ),
@@ -319,7 +324,7 @@ SCENE = Scene(
                 curves("ball", lambda s: [] if s.map is None else [s.map.curve], color=theme.ORBIT, tag="θ⁺"),
                 ring(
                     "chosen",
-                    lambda s: [] if s.map is None else [(s.phi, s.map.at(s.phi))],
+                    lambda s: [] if s.map is None else [(s.phi, s.map.theta_plus_at(s.phi))],
                     size=18.0,
                     tag="chosen orbit",
                 ),

@@ -1,4 +1,4 @@
-"""Shared by two scenes: attractors of a section γ₃ = 0 over a parameter, and one orbit."""
+"""Attractors of a section γ₃ = 0 over a parameter, and one orbit; base of two scenes."""
 
 from __future__ import annotations
 
@@ -127,7 +127,7 @@ class DiagramState(DiagramControls):
         """Return the parameter values of an orbit that starts at a point of the section."""
         return {"chosen": points_text([(x, min(max(y, 1e-6), math.pi - 1e-6))])}
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_diagram(self) -> Caption:
         if self.branch == NONE:
@@ -243,32 +243,32 @@ def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]
                     lambda s: s.diagram.frame,
                     (
                         "backward in time",
-                        "forward, parameter falling, where that differs",
-                        "forward, few to many points",
+                        "forward, parameter falling, where different",
+                        "forward in time, few to many points",
                     ),
                     (theme.UNSTABLE, theme.MAP, theme.ORBIT),
                 ),
                 curves(
                     "flips",
-                    within=lambda s, axes: _upright(s.diagram.flips, axes),
+                    data_in_axes=lambda s, axes: _upright(s.diagram.flips, axes),
                     color=theme.STABLE,
                     width=1.5,
                     dash="dashed",
-                    label="the period doubles",
+                    label="period doubling",
                 ),
                 dots("backward", dotted(BACKWARD), color=theme.UNSTABLE, size=3, label="backward in time"),
                 dots("falling", dotted(FALLING), color=theme.MAP, size=5, label="forward, parameter falling"),
                 dots("rising", dotted(RISING), color=theme.ORBIT, size=3, label="forward, parameter rising"),
                 curves(
                     "here",
-                    within=lambda s, axes: _upright([s.diagram.value], axes),
+                    data_in_axes=lambda s, axes: _upright([s.diagram.value], axes),
                     color=theme.INK,
                     width=1.5,
                     label="current state",
                     tag="current state",
                 ),
                 *branch.layers(lambda s: s.continuation),
-                names("flip-values", within=_flip_values, size=13, on_paper=True),
+                names("flip-values", data_in_axes=_flip_values, size=13, on_paper=True),
             ),
         ),
         body_picture(ball=ball),
@@ -288,7 +288,7 @@ def _pictures(state: type[DiagramState], ball: bool) -> tuple[Picture[Any], ...]
                     lambda s: [],
                     chosen=lambda s: [s.diagram.point],
                     window=lambda s: _WINDOW,
-                    impossible=lambda s: s.poincare.impossible(_WINDOW),
+                    forbidden_cells=lambda s: s.poincare.forbidden_cells(_WINDOW),
                     labels=("attractor", "repeller"),
                 ),
                 points("few", lambda s: distinct_points(s.regime.sets[0]), color=theme.ORBIT, size=9),

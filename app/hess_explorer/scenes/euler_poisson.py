@@ -69,7 +69,7 @@ from hess_mechanics.euler_poisson.andoyer import AndoyerSection, hess_curve, rel
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.euler_poisson.hess_split import HessTorus
 from hess_mechanics.numerics.accuracy import Level
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, as_read_only
 from hess_mechanics.parameters import F_HEAVY, H_HEAVY, I1, I2, I3, MU_R
 
 _NAMES = ("l", "L/G")
@@ -155,8 +155,8 @@ class EulerPoisson(FilledState):
         0.005,
         bounds=(-math.pi, math.pi),
         label="Angle off the Hess condition, ε",
-        doc="The angle, in radians, by which the centre of mass r is turned away from the direction "
-        "that the Hess condition asks for. At 0 the barrier r·M = 0 cannot be crossed.",
+        doc="Angle, in radians, by which the centre of mass r is rotated away from the direction of the Hess "
+        "condition. At 0 no orbit crosses the barrier r·M = 0.",
     )
     m: float = parameter(MU_R)
     h: float = parameter(H_HEAVY, softbounds=(-1.0, 60.0), doc="Energy, H = h.")
@@ -180,7 +180,7 @@ class EulerPoisson(FilledState):
         "Sheet",
         (_LARGEST, _SECOND),
         _LARGEST,
-        doc="The momentum G with which orbits start, where several have this energy at one point of the section.",
+        doc="Momentum G at the start, where several G have this energy at one point of the section.",
     )
     shade: str = shading()
     starts: str = points("The points of the chosen orbits", 12, *_BOUNDS, "0,0.2")
@@ -246,7 +246,7 @@ class EulerPoisson(FilledState):
 
         def says() -> str:
             if self.away != 0.0:
-                return "It belongs to ε = 0, and is not invariant now."
+                return "The torus belongs to ε = 0 and is not invariant here."
             off = float(np.max(np.abs(relation(self.body, self.orbit.path.states))))
             return f"The orbit has |r·M| up to {digits(off, 3)}; on the torus r·M = 0."
 
@@ -275,14 +275,14 @@ class EulerPoisson(FilledState):
     def other_sheets(self) -> Array:
         """The points (n, 2) of all orbits on other sheets of the energy surface."""
         known = *self.section.known_orbits.chosen_batches, *self.section.known_orbits.batches
-        return concatenate(batch.elsewhere for batch in known if batch.elsewhere is not None)
+        return concatenate(batch.other_sheets for batch in known if batch.other_sheets is not None)
 
     def hess_curve(self) -> tuple[Array, Array]:
         """Return the curve of the Hess manifold in the window, as x and y."""
         l = np.linspace(self.section.frame[0][0], self.section.frame[1][0], 241)
         return l, hess_curve(self.body, l)
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_section(self) -> Caption:
         if self.section_caption is not None:
@@ -314,9 +314,9 @@ def _crossings(
     other = [section.points_of(states)[~section.is_on(states)] for states in found.states]
     return replace(
         batch_of(section, found),
-        firsts=tuple(bool(sign > 0.0) for sign in signs),
+        first_kind=tuple(bool(sign > 0.0) for sign in signs),
         same_side=tuple(kept),
-        elsewhere=frozen(concatenate(other)),
+        other_sheets=as_read_only(concatenate(other)),
     )
 
 
@@ -325,7 +325,7 @@ SCENE = Scene(
     __file__,
     place=11,
     presets=PRESETS,
-    measures=(*section_trials(orbits=40.0), exponent_trial(), rotation_trial()),
+    level_trials=(*section_trials(orbits=40.0), exponent_trial(), rotation_trial()),
     charts=Charts(
         motion_charts(SYSTEM, lambda s: start_on(s.poincare, s.starts), time=lambda s: s.long),
         over=_NAMES,
@@ -351,7 +351,7 @@ SCENE = Scene(
             labels=("r·M > 0", "r·M < 0"),
             dot=("l", "x"),
             between=andoyer.middle_layers(
-                elsewhere=lambda s: s.other_sheets,
+                other_sheets=lambda s: s.other_sheets,
                 curve=EulerPoisson.hess_curve,
                 across=lambda s: crop(s.rotation.ends, s.section.frame),
             ),

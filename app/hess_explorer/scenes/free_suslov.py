@@ -95,7 +95,9 @@ class FreeSuslov(State):
     I23: float = parameter(free_body.I23)
     k: float = parameter(known.K_DRIVES_I11)
     w1: float = parameter(known.W1, 2.0)
-    w2: float = parameter(known.W2, 1e-4, doc="Value at t = 0; it may be as close to the line of equilibria as 1e-300.")
+    w2: float = parameter(
+        known.W2, 1e-4, doc="Value at t = 0. The start may be as close as 1e-300 to the line of equilibria."
+    )
     Gamma: float = parameter(known.GAMMA_CIRCLE)
     phi: float = parameter(known.CIRCLE_PHASE, 1.2672, label="Phase φ(0)", bounds=ONE_TURN)
     phi2: float = parameter(
@@ -104,7 +106,7 @@ class FreeSuslov(State):
         symbol="φ′",
         label="Phase of the second orbit",
         bounds=ONE_TURN,
-        doc="A second orbit with the same ω leaves the same circle Γ⁻, turned along it by φ′ − φ.",
+        doc="The second orbit has the same ω and leaves the same circle, rotated along the circle by φ′ − φ.",
     )
     span: float = time_span(30.0, 100.0, most=1e5)
     across: str = choice("γ₁ against", ("time", "phase"), "time", doc="Horizontal axis of the picture of γ₁: t or φ.")
@@ -240,11 +242,12 @@ class FreeSuslov(State):
             return branches(one.phase, one.gamma[:, 0], 2.0 * math.pi)
         return [np.column_stack([one.times, one.gamma[:, 0]])]
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_velocity(self) -> Caption:
         return Caption(
-            "From the unstable to the stable point.", f"Rate ω₀ = {digits(self.points.rate)}, E = {digits(self.h)}."
+            "ω goes from the unstable to the stable point.",
+            f"Rate ω₀ = {digits(self.points.rate)}, E = {digits(self.h)}.",
         )
 
     def _about_sphere(self) -> Caption:
@@ -321,10 +324,10 @@ SCENE = Scene(
             layers=(
                 *plane.energy_levels(FreeSuslov.ellipses, lambda s: s.half_width, "energy levels; level of F₂"),
                 plane.arcs(lambda s: s.arcs),
-                *plane.halves(
+                *plane.half_lines(
                     lambda s, axes: plane.half_line(s.points.stable, s.half_width, axes),
                     lambda s, axes: plane.half_line(s.points.unstable, s.half_width, axes),
-                    ("stable half, circle joined", "unstable half, circle left"),
+                    ("stable half, limit circle for t → ∞", "unstable half, limit circle for t → −∞"),
                 ),
                 line(
                     "second",

@@ -12,7 +12,7 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charts, torus_charts
-from hess_explorer.scenes.framework.hess_case import BY_THE_UNSTABLE_CYCLE, PHI0, RIS, UNSURE, HeavyHess, reduced_motion
+from hess_explorer.scenes.framework.hess_case import NEAR_UNSTABLE_CYCLE, PHI0, RIS, UNSURE, HeavyHess, reduced_motion
 from hess_explorer.scenes.framework.scene import Motion, Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import Slider, accuracy_level, number, parameter
 from hess_explorer.scenes.framework.solid_body import Solid, body_picture, heavy_solid
@@ -170,7 +170,7 @@ class HessLeak(State):
         l, x = self.run.andoyer.T
         return {
             **self.run_columns(),
-            "lg": column(lg(np.abs(self.run.off))),
+            "lg": column(lg(np.abs(self.run.offset))),
             "l": column(l),
             "x": column(x),
             **gamma_columns(self.states[:, 3:]),
@@ -181,18 +181,18 @@ class HessLeak(State):
         r, sign = self.bridge.heavy.r, math.copysign(1.0, self.bridge.hess.b)
         return parallels(r, [sign * n3 for n3 in self.hess.turning_points.roots[1:]])
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_leak(self) -> Caption:
         exact, growth = digits(mechanics.exact_growth(self.map)), self.leaks["own"].growth
         if self.map.kind != "hyperbolic":
-            merged, largest = self.map.fixed_points, digits(float(np.max(np.abs(self.run.off))), 2)
+            merged, largest = self.map.fixed_points, digits(float(np.max(np.abs(self.run.offset))), 2)
             return Caption(
-                "Lock boundary: |r·M| grows like t²." if merged else "No cycles: no growth to first order.",
+                "Tongue boundary: |r·M| grows like t²." if merged else "No cycles: no growth to first order.",
                 f"In {self._periods} periods |r·M| ≤ {largest}.",
             )
         if growth is None:
-            return Caption("Too short a growth to measure.", f"Exact growth {exact} per period.")
+            return Caption("The growth is too short to measure.", f"Exact growth {exact} per period.")
         measured = digits(growth.per_period)
         return Caption(
             "r·M grows exponentially.",
@@ -208,7 +208,7 @@ class HessLeak(State):
         if sign == 0:
             return Caption("The Hess relation holds to round-off.")
         layer = f"The orbit enters the layer r·M {'>' if sign > 0 else '<'} 0."
-        return Caption(layer, "It stays there." if stays else "It changes layer later.")
+        return Caption(layer, "The orbit stays in this layer." if stays else "The orbit changes layer later.")
 
     def _about_sphere(self) -> Caption:
         return Caption(
@@ -247,7 +247,7 @@ class HessLeak(State):
         if not self.bridge.heavy.check.is_body:
             yield self.bridge.heavy.check.sentence
         if self.peek("exact") and self.exact.error_estimate > UNSURE:
-            yield BY_THE_UNSTABLE_CYCLE
+            yield NEAR_UNSTABLE_CYCLE
 
 
 SCENE = Scene(
@@ -276,7 +276,7 @@ SCENE = Scene(
             y=_RANGE,
             dot=("t", "lg"),
             layers=(
-                *distances(lambda s: s.leaks, lambda leak: np.abs(leak.run.off)),
+                *distances(lambda s: s.leaks, lambda leak: np.abs(leak.run.offset)),
                 curves(
                     "slope",
                     lambda s: s.leaks["own"].straight_line(mechanics.exact_growth(s.map), _RANGE),

@@ -46,7 +46,8 @@ from hess_mechanics.suslov.kharlamova import Arc, PlaneBody
 from hess_mechanics.suslov.plane_potential import MOST_SAMPLES, POTENTIALS, PlaneMotion, PotentialBody, motion_from
 from hess_mechanics.suslov.principal_axis import divergence
 
-_LEVELS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)  # equipotentials, in units of the potential's largest value
+# Values of the equipotentials, in units of the potential's largest value.
+_LEVELS = (-0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75)
 _ROUND = {"I11": 1.0, "I22": 1.0, "b1": 1.0, "b2": 0.0}
 PRESETS = (
     Preset("Periodic: an arc of a parabola, back and forth"),
@@ -81,14 +82,22 @@ PRESETS = (
 class Kharlamova(State):
     """An orbit on its arc of a parabola, and the periods in all directions from its start."""
 
-    # These bounds are narrower than in other scenes.
+    # The bounds are narrower than in other scenes.
     I11: float = parameter(known.I11, bounds=(1e-2, 1e2))
     I22: float = parameter(known.I22, 1.0, bounds=(1e-2, 1e2))
     b1: float = parameter(
-        known.B1, 0.4, softbounds=(-2.0, 2.0), bounds=(-1e2, 1e2), doc="b = −mg r, r the mass centre; b₃ = 0."
+        known.B1,
+        0.4,
+        softbounds=(-2.0, 2.0),
+        bounds=(-1e2, 1e2),
+        doc="b = −mg r, where r is the centre of mass; here b₃ = 0.",
     )
     b2: float = parameter(
-        known.B2, 0.7, softbounds=(-2.0, 2.0), bounds=(-1e2, 1e2), doc="b = −mg r; b₁ = b₂ = 0: straight lines."
+        known.B2,
+        0.7,
+        softbounds=(-2.0, 2.0),
+        bounds=(-1e2, 1e2),
+        doc="b = −mg r; orbits are straight lines for b₁ = b₂ = 0.",
     )
     q1: float = number(
         "q₁",
@@ -257,7 +266,7 @@ class Kharlamova(State):
         middle, half = 0.5 * sum(self.arc.ends), round_up(0.6 * self.arc.length)
         return middle - half, middle + half
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_domain(self) -> Caption:
         if self.arc.kind == "fixed":
@@ -280,7 +289,7 @@ class Kharlamova(State):
 
     def _about_curve(self) -> Caption:
         if self.arc.kind == "fixed":
-            return Caption("τ is constant.", "dτ = γ₃ dt = 0." if self.arc.rate > 0.0 else "Nothing depends on it.")
+            return Caption("τ is constant.", "dτ = γ₃ dt = 0." if self.arc.rate > 0.0 else "Nothing depends on τ.")
         verdict = "γ₃² = P(τ) between two zeros."
         zeros = "Zeros {} and {}".format(*map(digits, self.arc.tau))
         if self.arc.kind == "asymptotic":
@@ -289,7 +298,7 @@ class Kharlamova(State):
 
     def _about_period(self) -> Caption:
         if self.arc.kind == "fixed":
-            return Caption("Periods in other directions from here.")
+            return Caption("Periods in all directions from this start.")
         if self.arc.kind == "asymptotic":
             return Caption("T = ∞ in this direction.", "∫dτ/γ₃ diverges.")
         return Caption(
@@ -356,7 +365,7 @@ SCENE = Scene(
             "In this direction the motion takes forever: it tends to an unstable fixed point.",
             lambda s: s.arc.kind == "asymptotic",
         ),
-        Answer("Nearly every motion is an arc, there and back: after one period it begins again."),
+        Answer("Nearly every motion runs along an arc and back, and repeats itself after one period."),
     ),
     lead=("period",),
     title="Principal axis, b₃ = 0",

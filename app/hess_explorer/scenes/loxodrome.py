@@ -51,16 +51,16 @@ class Loxodrome(State):
     """A motion of a loxodromic pendulum."""
 
     I1: float = parameter(known.I1)
-    I2: float = parameter(known.I2, 1.5, doc="Middle principal moment: it must lie between I₁ and I₃.")
+    I2: float = parameter(known.I2, 1.5, doc="Middle principal moment, which must lie between I₁ and I₃.")
     I3: float = parameter(known.I3, 2.0)
-    # The sign makes no difference to the pendulum.
+    # The pendulum does not depend on this sign.
     m: float = parameter(
         known.MU_R,
         0.7071,
         softbounds=(0.05, 20.0),
         step=0.05,
         bounds=(1e-3, 1e3),
-        doc="It sets the unit of energy and of time; the direction of r follows from the moments.",
+        doc="Sets the units of energy and time; the direction of r follows from the moments.",
     )
     energy: float = parameter(known.H_PENDULUM)
     l: float = parameter(known.L_PENDULUM)
@@ -119,7 +119,7 @@ class Loxodrome(State):
             "l": column(self.pendulum_motion.l),
         }
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_body(self) -> Caption:
         check_note = "" if self.pendulum.body.check.is_body else "Not a rigid body, so no ellipsoid. "
@@ -166,7 +166,7 @@ class Loxodrome(State):
         yield f"Unit of time = {digits(1.0 / p.frequency_unit)}"
         yield f"l(0) = {digits(p.l)}"
         yield f"A rigid body? {'yes' if heavy.check.is_body else 'no'}"
-        yield f"ln(departure) grows by 2π|a| = {digits(2.0 * math.pi * abs(p.a))} per turn in the full equations"
+        yield f"In the full equations ln|(M, r)| grows by 2π|a| = {digits(2.0 * math.pi * abs(p.a))} per turn"
 
     def status(self) -> Iterator[str]:
         """Yield the status of the attitude and of its orbit."""
@@ -205,7 +205,7 @@ SCENE = Scene(
             name="body",
             title="The body in space",
             caption=Loxodrome._about_body,
-            bare=True,
+            without_grid=True,
             shape=Loxodrome.shape,
             motion=lambda s: (s.pendulum_motion.attitude, s.pendulum_motion.times),
             rods=Loxodrome.rods,
@@ -229,7 +229,7 @@ SCENE = Scene(
             marks=(Mark((1.0, 0.0, 0.0), "muted", "e"), Mark((-1.0, 0.0, 0.0), "muted", "−e")),
             signs=(
                 Sign("loxodrome", "line", f"border-top: 2px solid {theme.MUTED}"),
-                Sign("middle axis, its track", "line", f"border-top: 4px solid {theme.ORBIT}"),
+                Sign("middle axis and its track", "line", f"border-top: 4px solid {theme.ORBIT}"),
                 CENTRE_OF_MASS,
             ),
         ),

@@ -80,7 +80,7 @@ PRESETS = (
         chosen="1,1",
     ),
 )
-"""Each is a rigid body for some I₃₃; all come from a search over random bodies."""
+"""Each example is a rigid body for some I₃₃, found by a search over random bodies."""
 
 
 @dataclass(frozen=True)

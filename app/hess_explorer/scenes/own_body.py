@@ -52,7 +52,7 @@ _CONSTRAINED, _FREE = "(a, ω) = 0", "none"
 def _component(symbol: str, label: str, default: float, doc: str, group: Group = "Computation") -> Any:
     bounds = (-1e3, 1e3)
     return number(
-        symbol, default, (-2.0, 2.0), 0.01, bounds=bounds, label=label, doc=doc, group=group, means="own body"
+        symbol, default, (-2.0, 2.0), 0.01, bounds=bounds, label=label, doc=doc, group=group, meaning="own body"
     )
 
 
@@ -64,9 +64,9 @@ def _velocity(symbol: str, default: float, group: Group = "State") -> Any:
         0.01,
         bounds=(-1e3, 1e3),
         label=f"Velocity {symbol}",
-        doc="Angular velocity at t = 0; the part that the constraint forbids is left out.",
+        doc="Angular velocity at t = 0; the component that the constraint forbids is removed.",
         group=group,
-        means="own body",
+        meaning="own body",
     )
 
 
@@ -86,7 +86,7 @@ class OwnBodyState(State):
         "Constraint",
         (_CONSTRAINED, _FREE),
         _CONSTRAINED,
-        doc="The velocity along a is 0, or the body is free.",
+        doc="The constraint (a, ω) = 0, or none.",
         group="Body",
     )
     I11: float = parameter(I11, 2.0)
@@ -135,7 +135,7 @@ class OwnBodyState(State):
         label="Azimuth of γ",
         doc="Azimuth of the vertical, in the plane of axes 1 and 2.",
         group="Computation",
-        means="own body",
+        meaning="own body",
     )
     height: float = number(
         "γ₃(0)",
@@ -145,7 +145,7 @@ class OwnBodyState(State):
         bounds=(-1.0, 1.0),
         label="Height γ₃",
         doc="Third component of the vertical.",
-        means="own body",
+        meaning="own body",
     )
     lasts: float = time_span(40.0, 300.0)
     long: float = exponent_time(500.0, 5000.0, 2e4, "the exponent is")
@@ -188,8 +188,8 @@ class OwnBodyState(State):
     @cached_property
     def is_compiled(self) -> bool:
         """True if equations of this form are compiled."""
-        # `newest` requests the compilation during a drag, too; `need` would not.
-        return self.work.newest([[Task(_compile, self.body.system)]])[0] is not None
+        # `newest_results` requests the compilation even during a drag, unlike `need`.
+        return self.work.newest_results([[Task(_compile, self.body.system)]])[0] is not None
 
     @property
     def periodic_orbit(self) -> NotPeriodic:
@@ -220,14 +220,14 @@ class OwnBodyState(State):
     @cached_property
     def crossings(self) -> SectionCrossings | None:
         """The crossings of the motion with the section, up to the averaging time; None until known."""
-        if not self.is_compiled or self.dragging:
+        if not self.is_compiled or self.is_preview:
             return None
         return self.work.need(
             Task(section, self.body, self.start, self.body.surface, self.long, self.level, _MOST_CROSSINGS),
             preview=None,
         )
 
-    def idle(self) -> Mapping[str, float]:
+    def idle_values(self) -> Mapping[str, float]:
         """Return the parameters without effect: the constraint of a free body, the frequency without a drive."""
         found = {} if self.constraint == _CONSTRAINED else {"a1": 0.0, "a2": 0.0, "a3": 0.0}
         return found if any((self.d1, self.d2, self.d3)) else {**found, "frequency": self.frequency}
@@ -269,7 +269,7 @@ def _energy_caption(s: OwnBodyState) -> Caption:
 def _section_caption(s: OwnBodyState) -> Caption:
     if not s.is_compiled or s.crossings is None:
         return _caption(s) if not s.is_compiled else Caption(s.pending_caption())
-    where = "Once in each period of the drive." if s.body.is_driven and s.frequency else "Where γ₃ = 0, upwards."
+    where = "One point per period of the drive." if s.body.is_driven and s.frequency else "Upward crossings of γ₃ = 0."
     return Caption(where, f"{len(s.crossings.times)} crossings up to t = {digits(s.long)}.")
 
 
@@ -333,7 +333,7 @@ SCENE = Scene(
     title="Your own body",
     summary="Type a potential; choose inertia, constraint, rotor and drive. Equations are derived, checked and solved.",
     tracks={"orbit": lambda s: s.track},
-    measures=(exponent_trial(),),
+    level_trials=(exponent_trial(),),
     views=(
         Plot[OwnBodyState](
             name="omega",

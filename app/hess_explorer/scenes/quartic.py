@@ -70,7 +70,7 @@ class Quartic(SectionState):
     # Narrower bounds than in other scenes: beyond them a section takes too many Taylor steps.
     I22: float = parameter(I22, 1.0, softbounds=(0.2, 3.0), bounds=(1e-2, 1e2))
     ratio: float = parameter(RATIO)
-    b3: float = parameter(B3, 1.0, bounds=(-1e2, 1e2), doc="b = −mg r; not 0 here, b₁ = b₂ = 0.")
+    b3: float = parameter(B3, 1.0, bounds=(-1e2, 1e2), doc="b = −mg r with b₁ = b₂ = 0; b₃ must not be 0.")
     h: float = parameter(H_QUARTIC)
     Q1: float = number(
         "q₁",
@@ -97,7 +97,7 @@ class Quartic(SectionState):
         0.01,
         bounds=(-math.pi, math.pi),
         label="Start: direction β",
-        doc="Initial direction of the point: q̇ = −p, |p| = √(1 − γ₃²). Click the section to choose all three.",
+        doc="Initial direction of the point: q̇ = −p, |p| = √(1 − γ₃²). Click the section to set q₁, q₂ and β.",
     )
     over: str = parameter_of_branch(tuple(_ALONG))
     low: float = end_of_branch("from")
@@ -151,7 +151,7 @@ class Quartic(SectionState):
         lambda s: Section(
             s,
             max_steps=40_000,
-            whole=s.section_window,
+            default_window=s.section_window,
         )
     )
     branch = part(lambda s: SectionBranch(s, s.periodic_orbit, _ALONG, ("I22",)))
@@ -175,7 +175,7 @@ class Quartic(SectionState):
         (q,), _ = self.body.to_plane(np.array([self.start]))
         return float(q[0]), float(q[1])
 
-    def impossible(self, axes: Axes) -> list[list[Array]]:
+    def forbidden(self, axes: Axes) -> list[list[Array]]:
         """Return the forbidden region of the section."""
         reach = 4.0 * max(axes.x[1], self.body.major_semi_axis)
         return (
@@ -191,7 +191,7 @@ class Quartic(SectionState):
         except ModelError:
             return {}
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_domain(self) -> Caption:
         first, second = map(digits, self.body.axes)
@@ -232,7 +232,7 @@ SCENE = Scene(
     __file__,
     place=7,
     presets=PRESETS,
-    measures=section_trials(),
+    level_trials=section_trials(),
     charts=Charts(motion_charts(SYSTEM, lambda s: s.chosen_start), over=("h", "beta")),
     group="Heavy body",
     essential=("ratio", "h", "Q1", "Q2"),
@@ -265,7 +265,7 @@ SCENE = Scene(
             caption=Quartic._about_section,
             axes=_NAMES,
             y=_P_AXIS,
-            layers=section_layers(forbidden=Quartic.impossible),
+            layers=section_layers(forbidden=Quartic.forbidden),
         ),
         Sphere(
             caption=Quartic._about_sphere,

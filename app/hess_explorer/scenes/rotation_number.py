@@ -13,12 +13,12 @@ import numpy as np
 from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.answers import Answer
 from hess_explorer.scenes.framework.charted import Charts, torus_charts
-from hess_explorer.scenes.framework.hess_case import LOOPS_MEET, map_or_none, possible_f
+from hess_explorer.scenes.framework.hess_case import CYCLES_MERGE, map_or_none, possible_f
 from hess_explorer.scenes.framework.part import part
 from hess_explorer.scenes.framework.scene import Preset, Scene, State
 from hess_explorer.scenes.framework.sliders import accuracy_level, choice, number, parameter
 from hess_explorer.scenes.framework.trial import COLOUR_UNIT, Trial, boundary_error, colour_error, curve_error
-from hess_explorer.scenes.framework.windows import tidy_window
+from hess_explorer.scenes.framework.windows import normalized_window
 from hess_explorer.scenes.parts.diagrams.rotation_map import BOUNDS, FULL, RotationMap, rotation_map, window_over
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Axes
@@ -59,7 +59,7 @@ PRESETS = (
 class RotationNumber(State):
     """A torus, a map of ρ over two parameters, and a line through the torus along one parameter."""
 
-    a: float = parameter(known.A_HESS, bounds=BOUNDS["a"])  # the range of the map
+    a: float = parameter(known.A_HESS, bounds=BOUNDS["a"])  # Range of the map.
     h: float = parameter(known.H_HESS, 0.5, step=0.005)
     f: float = parameter(known.F_HESS, 0.8, step=0.005, doc="Area integral in units b = 1.")
     over: str = choice("Map over", PLANES, "h, f", group="State", doc="Two parameters of the map; the third is fixed.")
@@ -71,7 +71,7 @@ class RotationNumber(State):
         _RATIONALS,
         "−1/4",
         group="State",
-        doc="Rotation number to find on the line, with the number of cycles of its torus.",
+        doc="Rational rotation number of the torus to find on the line.",
     )
     epsilon: float = number(
         "ε",
@@ -80,10 +80,10 @@ class RotationNumber(State):
         0.005,
         bounds=(0.0, 0.33),
         label="Perturbation ε, not Möbius",
-        doc="The other family: Θ(φ + ε sin 3φ). It is not a Möbius map: its ρ locks at many rational numbers.",
+        doc="Parameter of the other family Θ(φ + ε sin 3φ), which is not Möbius: its ρ locks at many rational numbers.",
     )
     accuracy: str = accuracy_level()
-    # One window for each map.
+    # Each map has its own window.
     part_hf: str = window_over("h, f")
     part_ha: str = window_over("h, a")
     part_fa: str = window_over("f, a")
@@ -93,9 +93,9 @@ class RotationNumber(State):
         return replace(
             self,
             f=possible_f(self.h, self.f, notes),
-            part_hf=tidy_window(self.part_hf),
-            part_ha=tidy_window(self.part_ha),
-            part_fa=tidy_window(self.part_fa),
+            part_hf=normalized_window(self.part_hf),
+            part_ha=normalized_window(self.part_ha),
+            part_fa=normalized_window(self.part_fa),
         )
 
     @property
@@ -113,13 +113,13 @@ class RotationNumber(State):
     def parameter_line(self) -> ParameterLine:
         """The tori on the line, within the window of the map if the line lies in its plane."""
         low, high = dict(zip(self.rho.sides, self.rho.window, strict=True)).get(self.line, FULL[self.line])
-        # The line's own parameter is set to 0, so the cache key is constant along the line.
-        return possible_part(ParameterLine(self.line, self.torus.at(**{self.line: 0.0}), low, high))
+        # Set the line's own parameter to 0, so that the cache key is constant along the line.
+        return possible_part(ParameterLine(self.line, self.torus.with_values(**{self.line: 0.0}), low, high))
 
     @cached_property
     def tori(self) -> rotation_line.Tori:
         """ρ and trace of tori on the line."""
-        count = _ON_LINE // 4 if self.dragging else self.plan(Kind.LINE).side(_ON_LINE)
+        count = _ON_LINE // 4 if self.is_preview else self.plan(Kind.LINE).side(_ON_LINE)
         values = self.work.need(Task(mechanics.values_along, self.parameter_line, count, self.plan(Kind.LINE).level))
         return rotation_line.Tori(self.parameter_line.values(count), values, self.parameter_line.value_of(self.torus))
 
@@ -129,22 +129,22 @@ class RotationNumber(State):
         plan, count = self.plan(Kind.LINE), self.tori.x.size
         turns = plan.part(mechanics.TURNS)
         task = Task(mechanics.perturbations_along, self.parameter_line, count, self.epsilon, plan.level, turns)
-        return None if self.dragging else self.work.need(task, preview=None)
+        return None if self.is_preview else self.work.need(task, preview=None)
 
     @property
     def target(self) -> Fraction:
-        """The rational number to find on the line; positive for f < 0, as ρ is."""
+        """The rational rotation number to find on the line; positive for f < 0, like ρ."""
         rho = Fraction(self.rational.replace("−", "-"))
         return -rho if self.line != "f" and self.f < 0.0 else rho
 
     @cached_property
     def _search(self) -> tuple[PeriodicTorus | None] | None:
         task = Task(_periodic, self.target, self.parameter_line)
-        return None if self.work.dragging else self.work.need(task, preview=None)
+        return None if self.work.is_preview else self.work.need(task, preview=None)
 
     @property
     def periodic(self) -> PeriodicTorus | None:
-        """The torus on the line with the rational ρ; None if there is none or until known."""
+        """The torus on the line with the rational ρ; None without such a torus and until known."""
         return None if self._search is None else self._search[0]
 
     @cached_property
@@ -152,7 +152,7 @@ class RotationNumber(State):
         """The circle map of the torus; None on the separatrix."""
         return map_or_none(self.work, self.a, self.h, self.f, self.level)
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_line(self) -> Caption:
         rho = str(self.target).replace("-", "−")
@@ -164,7 +164,9 @@ class RotationNumber(State):
                 "All orbits of this torus are periodic.",
                 f"ρ = {rho} at {self.line} = {value}: {difference} ≤ {defect}.",
             )
-        return Caption("ρ locks at 0 only." if self._search is None else f"No torus with ρ = {rho} found here.")
+        return Caption(
+            "ρ locks only at integers, here at 0." if self._search is None else f"No torus with ρ = {rho} found here."
+        )
 
     def _about_circle(self) -> Caption:
         if self.map is None:
@@ -199,7 +201,7 @@ def _periodic(rho: Fraction, line: ParameterLine) -> tuple[PeriodicTorus | None]
     return (mechanics.periodic_torus(rho, line, REFERENCE),)
 
 
-# ---- what each level costs --------------------------------------------------------------------------------------
+# ---- cost of each level ------------------------------------------------------------------------------------------
 
 
 def _line(s: RotationNumber, plan: Plan) -> Array:
@@ -232,7 +234,7 @@ _MEASURES: tuple[Trial[RotationNumber], ...] = (
         ("line", "trace"),
         _line,
         _line_error,
-        alike="cells",
+        shared_setting="cells",
     ),
     Trial(
         Kind.CURVE,
@@ -247,7 +249,7 @@ SCENE = Scene(
     __file__,
     place=8,
     presets=PRESETS,
-    measures=_MEASURES,
+    level_trials=_MEASURES,
     charts=Charts(torus_charts(lambda s: (s.a, s.h, s.f)), over=("h", "f")),
     group="Heavy body",
     essential=("a", "h", "f"),
@@ -257,7 +259,7 @@ SCENE = Scene(
             "Locked: two loops exist, and the rotation number stays an integer.",
             lambda s: s.map is not None and s.map.kind == "hyperbolic",
         ),
-        LOOPS_MEET,
+        CYCLES_MERGE,
         Answer("Not locked: the body winds on, and its rotation number changes smoothly."),
     ),
     title="Rotation number",

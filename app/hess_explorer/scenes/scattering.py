@@ -70,7 +70,7 @@ class ScatteringState(State):
         5.30103,
         softbounds=(1.0, 12.0),
         bounds=(0.5, 300.0),
-        doc="The start is δ = 10^−digits of |ω| away from the unstable point; it only shifts the phase.",
+        doc="Distance of the start from the unstable point: δ = 10^−digits of |ω|. A change only shifts the phase.",
     )
     accuracy: str = accuracy_level()
 
@@ -159,17 +159,18 @@ class ScatteringState(State):
 
     def grid(self) -> Array:
         """Return θ⁺ over all circles and phases."""
-        cells = _FEW_CELLS if self.dragging else self.plan(Kind.MAP).grid(_CELLS)
+        cells = _FEW_CELLS if self.is_preview else self.plan(Kind.MAP).grid(_CELLS)
         return self.work.need(Task(model.theta_plus_grid, self.map, *cells))
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_curve(self) -> Caption:
         return Caption(numbers=f"θ⁻ = {in_digits(self.theta)}: {square.range_text(self.curve)} (dotted: θ⁻, π − θ⁻).")
 
     def _about_map(self) -> Caption:
         return Caption(
-            "One rotation gives the whole map.", f"It turns ξ by χ = {in_digits(math.acos(self.limit.cos_chi))}."
+            "One rotation gives the whole map.",
+            f"The rotation turns ξ by χ = {in_digits(math.acos(self.limit.cos_chi))}.",
         )
 
     def _about_sphere(self) -> Caption:
@@ -200,8 +201,8 @@ class ScatteringState(State):
         """Yield a warning if the start is rounded."""
         if self.I13 * self.I23 != 0.0 and self.digits > 8.0:
             yield (
-                "With I₁₃I₂₃ ≠ 0 the start of the orbit is rounded to 1e−16: its passage is a little early or late, "
-                f"and its Γ⁺ is off by up to 1e−{16.0 - self.digits:.0f}."
+                "With I₁₃I₂₃ ≠ 0 the start of the orbit is rounded to 1e−16, which shifts its passage in time and "
+                f"changes Γ⁺ by up to 1e−{16.0 - self.digits:.0f}."
             )
 
 
@@ -223,7 +224,7 @@ SCENE = Scene(
     __file__,
     place=4,
     presets=PRESETS,
-    measures=(_MAP,),
+    level_trials=(_MAP,),
     charts=Charts(
         (
             ChartSource("scattering", lambda s: {**tensor_of(s.body), "theta": s.theta, "phi": s.phi}),

@@ -32,7 +32,7 @@ from hess_mechanics.numerics.results import Array
 _FEW = 1000
 """Number of points while a slider is dragged and until the full cloud is known."""
 
-# Each example sets all choices that it depends on; unset choices keep their values.
+# Each example sets all choices that affect it, because other choices keep their values.
 _CHOICES: Values = {"start": "energy shell", "direction": "forward", "beside": "nothing", "along": "divergence"}
 _PATCH: Values = {"start": "small patch", "direction": "forward", "along": "volume"}
 
@@ -86,7 +86,7 @@ class SingularMeasures(State):
         0.01,
         bounds=ONE_TURN,
         label="Direction φ of the patch",
-        doc="Angle of the patch in the plane of ω₁ and ω₂, in radians. A click there chooses it.",
+        doc="Angle of the patch in the plane of ω₁ and ω₂, in radians. Click the plane to set it.",
     )
     span: float = time_span(14.0, 40.0, step=0.5, what="the cloud")
     b3: float = parameter(
@@ -94,7 +94,7 @@ class SingularMeasures(State):
         1.0,
         label="Field b₃ of the second cloud",
         group="State",
-        doc="With I₁₃ = I₂₃ = 0 nothing would move without a field; the first cloud has none.",
+        doc="Only the second cloud has a field: without one, ω would be constant for I₁₃ = I₂₃ = 0.",
     )
     start: str = choice(
         "Cloud",
@@ -108,7 +108,7 @@ class SingularMeasures(State):
         ("forward", "backward"),
         "forward",
         group="State",
-        doc="Forward to the stable half of s = 0, backward to the other.",
+        doc="Forward, the cloud approaches the stable half of s = 0; backward, the unstable half.",
     )
     beside: str = choice(
         "Beside",
@@ -126,7 +126,7 @@ class SingularMeasures(State):
     points: str = choice("Points", ("1000", "10000"), "10000", doc="Number of points of both clouds together.")
     accuracy: str = accuracy_level()
 
-    def idle(self) -> Mapping[str, float]:
+    def idle_values(self) -> Mapping[str, float]:
         """Return the parameters of the patch or of the second cloud, if it is absent."""
         return {
             **({} if self.start == "small patch" else {"angle": self.angle}),
@@ -177,20 +177,20 @@ class SingularMeasures(State):
         """Return the times of the clouds and the mean of the fourth picture."""
         return {"t": column(self.times), "mean": column(self.statistics[0])}
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_velocity(self) -> Caption:
         return cloud.ends_caption(self.clouds)
 
     def _about_sphere(self) -> Caption:
         first, last = (float(((self.clouds.cloud.gamma[:, i] @ self.strip.xi) ** 2).mean()) for i in (0, -1))
-        return Caption("γ of the same points.", f"Mean of (γ, ξ)² {range_text(first, last, 3)}.")
+        return Caption("γ of the points of the cloud.", f"Mean of (γ, ξ)² {range_text(first, last, 3)}.")
 
     def _about_density(self) -> Caption:
         s, mean = self.clouds.density.upper_quarter
         height = digits(self.clouds.density.height, 3)
         return Caption(
-            "Mean over time against the invariant density.",
+            "Time average and invariant density.",
             f"At |s| = {digits(s, 2)}: {digits(mean, 3)}/|s|; invariant density: {height}/|s|.",
         )
 
@@ -222,7 +222,7 @@ _CLOUD: Trial[SingularMeasures] = Trial(
     (),
     lambda s, plan: s.task(plan.part(int(s.points), _FEW), plan.level).compute(),
     lambda s, found, truth: cloud.largest_distance(found, truth),
-    alike="share",
+    shared_setting="share",
 )
 
 SCENE = Scene(
@@ -230,7 +230,7 @@ SCENE = Scene(
     __file__,
     place=16,
     presets=PRESETS,
-    measures=(_CLOUD,),
+    level_trials=(_CLOUD,),
     group="Free body",
     essential=("h", "I23", "D", "spread"),
     answers=(Answer("The cloud leaves one half of a line and gathers at the other, though no energy is lost."),),
@@ -260,7 +260,7 @@ SCENE = Scene(
             log="xy",
             axes=("|s| = |I₁₃ω₁ + I₂₃ω₂|", "share of points per |s|"),
             y_tick_count=5,
-            drawn_from=("omega",),
+            source_pictures=("omega",),
             x=lambda s: cloud.density_axes(s.clouds).x,
             y=lambda s: cloud.density_axes(s.clouds).y,
             layers=cloud.density_layers(lambda s: s.clouds.density),

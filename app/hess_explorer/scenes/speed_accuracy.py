@@ -36,11 +36,11 @@ class Study(State):
     def costs(self) -> Costs:
         """Time and error of all computations of the state."""
         plain = bare_state(self.base)
-        return Costs(self.work, plain, tuple(trial for trial in self.trials if trial.applies(plain)))
+        return Costs(self.work, plain, tuple(trial for trial in self.trials if trial.condition(plain)))
 
     @cached_property
     def precision(self) -> Precision | None:
-        """The motion at every level; None for a scene without one.  Raises `ModelError`."""
+        """The motion at every level; None for a scene without a motion.  Raises `ModelError`."""
         motion = self.base.motion()
         return None if motion is None else Precision(self.work, motion)
 
@@ -95,13 +95,13 @@ class SpeedAccuracy(Scene[Study]):
         """The parameters of the other scene."""
         return self.other.specs
 
-    def in_sight(self, state: Study) -> Iterator[tuple[Trial[Any], State]]:
+    def visible_trials(self, state: Study) -> Iterator[tuple[Trial[Any], State]]:
         """Return all computations of the other scene."""
         return ((trial, state.costs.base) for trial in state.costs.trials)
 
-    def of(self, values: Values, visible: Collection[str] = (), dragging: bool = False) -> Study:
+    def of(self, values: Values, visible: Collection[str] = (), is_preview: bool = False) -> Study:
         """Return the state with these values, without computing anything."""
-        base = self.other.of(values, visible, dragging)
+        base = self.other.of(values, visible, is_preview)
         return Study(base, self.other.trials, work=base.work, visible=base.visible)
 
     def admit(self, values: Values) -> tuple[dict[str, Value], list[str]]:
@@ -118,7 +118,7 @@ def speed_and_accuracy(other: Scene[Any]) -> SpeedAccuracy:
         else ("speed_accuracy_of_maps", "Cost and error of all computations of the scene")
     )
     pictures: list[Picture[Study]] = [one.of(_precision) for one in PRECISION_PICTURES if moving]
-    if other.measures:
+    if other.level_trials:
         pictures.append(costs_picture(other.trials, folded=moving).of(lambda s: s.costs))
     return SpeedAccuracy(
         Study,

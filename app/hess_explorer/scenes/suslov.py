@@ -79,7 +79,7 @@ PRESETS = (
         long=3000.0,
     ),
     Preset("Two attractors, and their basins", **_TWO, h=2.999584, colours="basins", count=400.0, drop=_LATE),
-    # All points but a few lie at the two fixed points.
+    # Nearly all points lie at the two fixed points, so a density would show little.
     Preset(
         "Reversal: attractor and repeller (not a rigid body)", **_REVERSAL, h=2.999981, count=100.0, indicator="nothing"
     ),
@@ -114,7 +114,12 @@ class Suslov(FilledState):
         _BOTH,
         doc="Basins: the attractor to which each point of the section leads, and how soon.",
     )
-    drop: str = choice("Points shown", ("all", _LATE), "all", doc="The later half shows the attractor.")
+    drop: str = choice(
+        "Points shown",
+        ("all", _LATE),
+        "all",
+        doc="The second half of the crossings shows the attractor without the transient.",
+    )
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
     starts: str = points("The points of the chosen orbits", 12, *_BOUNDS, "1,1")
     window: str = points("The window of the section", 2, *_BOUNDS)
@@ -167,7 +172,9 @@ class Suslov(FilledState):
     def section(self) -> Section:
         """The section."""
         ways = (True, False) if self.colours == _BOTH else (True,)
-        return filled_section(self, 12, ways=ways, later=self.drop == _LATE, alone=self.colours != "basins")
+        return filled_section(
+            self, 12, directions=ways, second_half_only=self.drop == _LATE, is_exclusive=self.colours != "basins"
+        )
 
     clicks = part(lambda s: Clicks(s, "no motion has this energy"))
     orbit = part(lambda s: BodyOrbit(s, s.orbit_level))
@@ -178,7 +185,7 @@ class Suslov(FilledState):
     def _conformal(self) -> tuple[Conformal | None, str]:
         """The orbit in real and in conformal time and an empty string; or None and the reason."""
         if self.I13 != 0.0 or self.I23 != 0.0:
-            return None, "Only for I₁₃ = I₂₃ = 0, as in the example “On a principal axis”."
+            return None, "Needs I₁₃ = I₂₃ = 0, as in the example “On a principal axis”."
         try:
             return self.work.need(Task(conformal, self.body, self.start, self.duration, self.orbit_level())), ""
         except WorkLimit as error:
@@ -195,8 +202,8 @@ class Suslov(FilledState):
         if not self.orbits:
             return Caption(numbers=f"{len(self.section.chosen_points)} points of chosen orbits.")
         backward = f", {len(second)} backward" if len(second) else ""
-        # The later halves of the forward orbits show the attractors.
-        later = self.section.points(later=True)
+        # The second halves of the forward orbits show the attractors.
+        later = self.section.points(second_half_only=True)
         counted = self.density.phrase or f"{len(first)} points forward{backward}; "
         cells = occupied_cells(later, self.poincare.window, _CELLS)
         return Caption(numbers=f"{counted}late forward points occupy {cells} of {_CELLS**2} cells.")
@@ -213,13 +220,13 @@ SCENE = Scene(
     __file__,
     place=5,
     presets=PRESETS,
-    measures=(*section_trials(orbits=40.0), exponent_trial(), basins_trial()),
+    level_trials=(*section_trials(orbits=40.0), exponent_trial(), basins_trial()),
     charts=Charts(
         (
             *motion_charts(SYSTEM, lambda s: start_on(s.poincare, s.starts), time=lambda s: s.long),
             ChartSource(
                 "basins suslov-section",
-                # Attractors belong to the whole section: one cell is enough.
+                # One cell is enough, because attractors belong to the whole section.
                 lambda s: {**parameters_of(s.body), "h": s.h, "k": s.poincare.k, "across": 1.0, "up": 1.0},
             ),
         ),

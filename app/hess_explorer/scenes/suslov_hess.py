@@ -52,7 +52,7 @@ from hess_mechanics.suslov_hess.bifurcation import TurningPoints, curve, curve_p
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 from hess_mechanics.suslov_hess.equations import SYSTEM, HessBody
 from hess_mechanics.suslov_hess.invariant_measure import density_on_torus, invariant_measure
-from hess_mechanics.suslov_hess.mode_locking import CELLS, affordable_cells, lock_boundary, rotation_number_window
+from hess_mechanics.suslov_hess.mode_locking import CELLS, affordable_cells, rotation_number_window, tongue_boundary
 from hess_mechanics.suslov_hess.torus import MAX_RETURNS, Track, annulus, pixels_per_unit, start_of_track, track
 
 _ON_BOUNDARY = 48
@@ -128,10 +128,10 @@ class SuslovHess(State):
         return "" if self.map is None else self.map.kind
 
     @cached_property
-    def lock_boundary(self) -> Array:
+    def tongue_boundary(self) -> Array:
         """The boundary |t| = 2 of the Arnold tongue, with points (n, 2)."""
         plan = self.plan(Kind.CURVE, steady=True)
-        return self.work.need(Task(lock_boundary, self.body.a, plan.level, plan.side(_ON_BOUNDARY)))
+        return self.work.need(Task(tongue_boundary, self.body.a, plan.level, plan.side(_ON_BOUNDARY)))
 
     @cached_property
     def edge(self) -> Array:
@@ -177,7 +177,7 @@ class SuslovHess(State):
 
     @cached_property
     def density(self) -> tuple[Array | None, str]:
-        """The invariant density on the torus, relative to the uniform one, or None; and the reason for None."""
+        """The invariant density on the torus relative to the uniform density, or None; and the reason for None."""
         reason = torus_density.reason_for_no_density(self.map, self.turning_points)
         if reason or self.map is None:
             return None, reason
@@ -205,7 +205,7 @@ class SuslovHess(State):
     @cached_property
     def proof(self) -> ProvedStatement | None:
         """The proved statement on this torus; None until known and during a drag."""
-        if self.dragging or self.map is None:
+        if self.is_preview or self.map is None:
             return None
         if not has_flint():
             return ProvedStatement("", "Proofs need python-flint: pip install 'hess-explorer[prove]'")
@@ -243,7 +243,7 @@ class SuslovHess(State):
         task = self.colours(affordable_cells(self.body.a, plan.grid(CELLS)), plan.level)
         return CellGrid(self.work.need(task), axes.x, axes.y)
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def quantities(self) -> Iterator[str]:
         """Yield a, b, derived data of the body, the integrals in its units, and the period."""
@@ -304,7 +304,7 @@ _MEASURES: tuple[Trial[SuslovHess], ...] = (
     Trial(
         Kind.CURVE,
         ("bifurcation",),
-        lambda s, plan: lock_boundary(s.body.a, plan.level, plan.side(_ON_BOUNDARY)),
+        lambda s, plan: tongue_boundary(s.body.a, plan.level, plan.side(_ON_BOUNDARY)),
         lambda s, found, truth: boundary_error(found, truth, diagram.window(s.h)),
     ),
 )
@@ -314,7 +314,7 @@ SCENE = Scene(
     __file__,
     place=1,
     presets=PRESETS,
-    measures=_MEASURES,
+    level_trials=_MEASURES,
     charts=Charts(torus_charts(lambda s: (s.body.a, s.h, s.f)), over=("h", "f")),
     swarm=hess_case.torus_swarm(lambda s: (s.body, s.h, s.f, s.phi0, s.map)),
     group="Heavy body",
@@ -323,14 +323,14 @@ SCENE = Scene(
     answers=(
         Answer("On the separatrix the body climbs forever and never comes back.", lambda s: s.map is None),
         Answer(
-            "At this edge the torus has shrunk: the height of the body no longer changes.",
+            "On this edge the torus shrinks to a circle: the height of the body is constant.",
             lambda s: torus_plane.is_circle(s.turning_points),
         ),
         Answer(
             "Two loops: every start ends on the green one, except the dashed loop itself.",
             lambda s: s.kind == "hyperbolic",
         ),
-        hess_case.LOOPS_MEET,
+        hess_case.CYCLES_MERGE,
         Answer("No loop attracts: every orbit winds around the torus forever."),
     ),
     lead=("bifurcation", "omega", "sphere", "circle"),
@@ -369,7 +369,7 @@ SCENE = Scene(
             on_hover=lambda s, h, f: diagram.torus_tooltip(s.body.a, h, f),
             layers=diagram.layers(
                 rotation=lambda s: s.rotation,
-                boundary=lambda s: s.lock_boundary,
+                boundary=lambda s: s.tongue_boundary,
                 curve=lambda s: s.edge,
                 here=lambda s: [(s.h, s.f)],
                 axes=lambda s: diagram.window(s.h),

@@ -1,4 +1,4 @@
-"""Track compiled kernels, and start processes that compile the others.  This module imports only Numba."""
+"""Track compiled kernels, and start processes that compile missing kernels.  This module imports only Numba."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from hess_mechanics.numerics.jit import CACHE_FOLDER, source_hash
 KEEPS_KERNELS = CACHE_FOLDER is not None
 """False if no cache folder is writable; then every start compiles the kernels that it needs."""
 
-# Numba stores kernels under the path of their source, so a second copy of this version compiles its own.
+# Numba stores kernels under the path of their source, so each installed copy of this version compiles its own.
 _PLACE = hashlib.sha256(str(Path(hess_mechanics.__file__).parent).encode()).hexdigest()[:16]
 _MARK = None if CACHE_FOLDER is None else CACHE_FOLDER / f"complete-{_PLACE}-{source_hash()}"
 
@@ -61,7 +61,7 @@ def compiler(work: str, patience: int = 0) -> subprocess.Popen[bytes]:
     subprocess.Popen
         The process.  It does not inherit the output pipes: a reader of this process's output would wait for it too.
     """
-    # A new session, so that Ctrl-C reaches only the server, which then closes the compiler's standard input.
+    # Use a new process group, so that Ctrl-C reaches only the server, which then closes the compiler's standard input.
     return subprocess.Popen(
         [sys.executable, "-c", _COMPILER.format(work=work, patience=patience)],
         stdin=subprocess.PIPE,

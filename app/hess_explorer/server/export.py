@@ -35,7 +35,7 @@ _SPECS = (
     ChoiceSpec("grid", "Grid", ("0", "1"), "0"),
 )
 
-# One file and one slow file at a time, so that open pages have priority.
+# Draw one file and one slow file at a time, so that open pages have priority.
 _files = ThreadPoolExecutor(max_workers=1, thread_name_prefix="export")
 _one_slow = asyncio.Lock()
 _MOST = {False: 20, True: 5}
@@ -47,7 +47,7 @@ _SECONDS = 10.0
 
 
 def _needs_browser(name: str, picture: str, kind: str) -> bool:
-    """Return whether a browser draws the file: a film, or a figure of anything but a plot."""
+    """Return whether a browser draws the file: a film, or a figure of a picture other than a plot."""
     scene = scenes().get(name, next(iter(scenes().values())))
     view = next((view for view in scene.views if view.name == picture), scene.views[0])
     return kind in formats_of("film") or (kind in formats_of("figure") and not isinstance(view, Plot))
@@ -121,7 +121,7 @@ class Export(RequestHandler):
         name = f"{where.scene.name}-{where.picture.name}"
         if request.kind in PROGRAMS:
             return name, PROGRAMS[request.kind](where).encode()
-        # Not at the start, because no page needs HoloViews.
+        # Imported here, because no page needs HoloViews.
         from hess_explorer.export.figure import as_file
 
         with time_budget(self._left, _SECONDS), np.errstate(all="ignore"):

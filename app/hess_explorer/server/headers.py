@@ -20,7 +20,7 @@ from hess_explorer.server.refusal import refuse
 QUERY_LIMIT = 4 * MAX_QUERY
 """Maximum length of a query in characters; the websocket request repeats it in a header."""
 
-# A relative URL, which also works behind a proxy that serves the page under a prefix.
+# A relative URL also works behind a proxy that serves the page under a prefix.
 _BASE = f"""
     <meta name="viewport" content="width=device-width, initial-scale=1">
     <style>html, body {{ color: CanvasText; background: Canvas }}</style>
@@ -46,18 +46,18 @@ def policy(nonce: str, embedders: tuple[str, ...]) -> str:
     embedders : tuple of str
         Sites that may embed the page.
     """
-    # Without frame-ancestors any page may embed it, including local files, which "*" would exclude.
+    # Without frame-ancestors any page may embed this one; "*" would exclude local files.
     ancestors = "" if "*" in embedders else " ".join(embedders)
     return "; ".join(
         [
             "default-src 'none'",
-            # Panel loads its component from a blob.
+            # Panel loads its component from a blob URL.
             f"script-src 'self' blob: 'nonce-{nonce}' 'unsafe-eval'",
             "style-src 'self' 'unsafe-inline'",
             "img-src 'self' data: blob:",
             "font-src 'self' data:",
             "media-src 'self' blob:",
-            # 'self' for the websocket, blob: for Panel's component.
+            # 'self' allows the websocket, blob: allows Panel's component.
             "connect-src 'self' blob:",
             # A comparison of two states shows the page in two frames.
             "frame-src 'self'",
@@ -74,7 +74,7 @@ class GuardedDocument(DocHandler):
     embedders: ClassVar[tuple[str, ...]] = ("*",)
     """Sites that may embed a part of the page (`embed=1`)."""
 
-    # A default, because Tornado may send an error before `prepare`.
+    # A default is needed, because Tornado may send an error before `prepare`.
     _nonce = ""
 
     async def prepare(self) -> None:
@@ -93,7 +93,7 @@ class GuardedDocument(DocHandler):
         embedded = self.get_query_argument("embed", "") == "1"
         self.set_header("Content-Security-Policy", policy(self._nonce, self.embedders if embedded else ("'self'",)))
         if not embedded:
-            # For browsers without support of frame-ancestors.
+            # Older browsers do not support frame-ancestors.
             self.set_header("X-Frame-Options", "SAMEORIGIN")
         self.set_header("X-Content-Type-Options", "nosniff")
         self.set_header("Referrer-Policy", "same-origin")

@@ -15,7 +15,7 @@ def home_of(request: HTTPServerRequest) -> str:
     """Return the public address of the page, with a slash at the end; respects X-Forwarded headers of proxies."""
 
     def told(name: str, allowed: re.Pattern[str], otherwise: str) -> str:
-        # Each proxy appends to the header; the first entry is the one that the browser talked to.
+        # Each proxy appends to the header, so the first entry comes from the proxy that the browser addressed.
         value = request.headers.get(f"X-Forwarded-{name}", "").split(",")[0].strip()
         return value if allowed.fullmatch(value) else otherwise
 

@@ -32,7 +32,7 @@ logger = logging.getLogger("hess_explorer")
 
 
 class Hosts(Matcher):
-    """The hosts of a server: localhost, addresses and names of the machine, and further ones.
+    """The hosts of a server: localhost, addresses and names of the machine, and further hosts.
 
     A matcher of Tornado's router that matches the requests for other hosts.
 
@@ -57,7 +57,7 @@ class Hosts(Matcher):
 
     def guard(self, server: Server) -> None:
         """Reject all requests for other hosts."""
-        # Bokeh's server does not expose its Tornado application, and a rule of the host must come before all paths.
+        # Bokeh's server does not expose its Tornado application, where a rule for the host must come before all paths.
         server._tornado.default_router.rules.insert(0, Rule(self, _Refused))
 
 
@@ -79,7 +79,7 @@ def _local_address(request: HTTPServerRequest) -> str:
     try:
         found = ip_address(connection.stream.socket.getsockname()[0].partition("%")[0])
     except (AttributeError, OSError, ValueError):
-        # The client has left.
+        # The client has disconnected.
         return ""
     return str(getattr(found, "ipv4_mapped", None) or found)
 

@@ -34,7 +34,7 @@ class Capacity:
         self.most = most
         self.sessions = 0
 
-    def take(self) -> bool:
+    def reserve(self) -> bool:
         """Count a new session until it is destroyed; return False if the server is full."""
         if self.sessions >= self.most:
             return False
@@ -75,7 +75,7 @@ class RateLimit:
         self._room, self._since = self._burst, time.monotonic()
         self._over = False
 
-    def takes(self, socket: WebSocketHandler, frame: str | bytes) -> bool:
+    def accepts(self, socket: WebSocketHandler, frame: str | bytes) -> bool:
         """Return whether a frame is accepted; close the websocket if the rate or the size is too high."""
         now = time.monotonic()
         self._room = min(self._burst, self._room + self._frames * self._rate * (now - self._since)) - 1.0
@@ -91,7 +91,7 @@ class RateLimit:
         return not self._over
 
 
-async def say_goodbye(seconds: float) -> None:
+async def close_websockets(seconds: float) -> None:
     """Close all websockets and wait for the close handshakes, at most `seconds`."""
     for one in [*OPEN_SOCKETS]:
         one.close(1001, SHUTDOWN)

@@ -9,7 +9,7 @@ def end_with_stdin() -> None:
 
     Run this in a separate thread.
     """
-    # Not `sys.stdin`: the interpreter would wait for its lock at exit.
+    # Read the file descriptor: with `sys.stdin` the interpreter would wait for its lock at exit.
     while os.read(0, 4096):
         pass
     signal.raise_signal(signal.SIGTERM)

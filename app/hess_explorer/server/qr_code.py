@@ -10,7 +10,7 @@ from tornado.web import RequestHandler
 
 from hess_explorer.server.refusal import refuse
 
-MOST = 1500
+MAX_LENGTH = 1500
 """Maximum length of a text in bytes; a phone camera cannot read a denser code from a screen."""
 
 
@@ -30,11 +30,11 @@ class QrCode(RequestHandler):
         text = self.get_query_argument("text", "", strip=False)
         length = len(text.encode())
         self.set_header("X-Content-Type-Options", "nosniff")
-        if not 0 < length <= MOST:
+        if not 0 < length <= MAX_LENGTH:
             refuse(
                 self,
                 400,
-                f"The link has {length} characters, but a readable QR code holds at most {MOST}: share the link "
+                f"The link has {length} characters, but a readable QR code holds at most {MAX_LENGTH}: share the link "
                 "itself.",
             )
             return

@@ -18,7 +18,7 @@ from hess_explorer.server.limits import OPEN_SOCKETS, RateLimit
 SIZE, RATE, BURST = 8 * 1024, 10.0, 30.0
 """Maximum size of a message in bytes, messages per second and burst size."""
 
-# Close codes of the application; the pages know them, see "page/room_socket.js".
+# Close codes of the application, see "page/room_socket.js".
 TAKEN = 4003, "There is a room with this code."
 UNKNOWN = 4004, "There is no such room: its lecture has ended, or the code is wrong."
 FORGED = 4005, "This room belongs to another page."
@@ -37,7 +37,7 @@ class Outbox:
         self._sending: asyncio.Task[None] | None = None
 
     def put(self, kind: str, message: str | bytes) -> None:
-        """Send a message; it replaces a waiting one of the same kind, and comes after all others."""
+        """Send a message after all others; it replaces a waiting message of the same kind."""
         self._waiting.pop(kind, None)
         self._waiting[kind] = message
         if self._sending is None or self._sending.done():
@@ -83,7 +83,7 @@ class RoomSocket(WebSocketHandler):
 
     def on_message(self, message: str | bytes) -> None:
         """Process a message within the limits."""
-        if not self._limit.takes(self, message):
+        if not self._limit.accepts(self, message):
             return
         try:
             told = json.loads(message)
@@ -108,7 +108,7 @@ class RoomSocket(WebSocketHandler):
         room = self._rooms.find(self._code)
         match wish:
             case _ if self._workers > 1:
-                # A follower may have come to another process than the lecturer.
+                # With several processes, a follower may have reached another one than the lecturer.
                 self.close(*SEVERAL)
             case Open() if room is not None:
                 self.close(*TAKEN)

@@ -88,7 +88,7 @@ def _prepare(address: str, port: int, ready: Callable[[], None]) -> None:
 
 def _page(lessons: Sequence[Lesson], capacity: Capacity) -> Any:
     """Return the page with the style sheets of this server, or a message if the server is full."""
-    if not capacity.take():
+    if not capacity.reserve():
         return pn.pane.Str(capacity.sentence)
     document = pn.state.curdoc
     if document is not None:
@@ -144,9 +144,9 @@ def create_server(
         "liveness": True,
         "num_procs": workers,
         "verbose": False,
-        # Above the limit of `RateLimit`, which gives a better reason than Tornado.
+        # Allow more than `RateLimit`, whose error message is clearer than that of Tornado.
         "websocket_max_message_size": 4 * MESSAGE_LIMIT,
-        # Timeouts in seconds for slow clients.
+        # Disconnect slow clients after these timeouts in seconds.
         "http_server_kwargs": {"max_body_size": BODY_LIMIT, "body_timeout": 20.0, "idle_connection_timeout": 300.0},
         "unused_session_lifetime_milliseconds": UNUSED_SESSION_MS,
         "check_unused_sessions_milliseconds": UNUSED_SESSION_MS // 4,
@@ -196,12 +196,12 @@ def serve(
     follow : callable or None
         Called with the query of every state that a page shows.
     """
-    # Bokeh's, because its logger has a handler without times.
+    # Use Bokeh's `basicConfig`, because the handler of its logger prints no times.
     basicConfig(format="%(asctime)s %(name)s %(message)s", datefmt="%Y-%m-%dT%H:%M:%S%z")
     logging.captureWarnings(True)
     logger.setLevel(logging.INFO)
     logging.getLogger("asyncio").addFilter(_is_news)
-    # Maximum wait of the event loop for the interpreter lock behind a computing thread; the default is 5 ms.
+    # Longest wait of the event loop for the interpreter lock behind a computing thread; the default is 5 ms.
     sys.setswitchinterval(0.001)
     pn.extension()
     replace_handlers(embedders)
@@ -220,8 +220,8 @@ def serve(
     if together is not None:
         # Only one worker reports that the explorer is ready, and all end with the parent process.
         ready = ready if task_id() == 0 else lambda: None
-        together.end_together(server.io_loop)
-        POOL.use(POOL.cores // workers)
+        together.end_with_parent(server.io_loop)
+        POOL.set_cores(POOL.cores // workers)
     # Compile kernels while the browser loads the page.
     threading.Thread(target=_prepare, args=(address, port, ready), name="warm", daemon=True).start()
     server.start()

@@ -13,7 +13,7 @@ from typing import NoReturn
 from bokeh.server.server import Server
 from tornado.ioloop import IOLoop
 
-from hess_explorer.server.limits import say_goodbye
+from hess_explorer.server.limits import close_websockets
 
 GOODBYE = 2.0
 """Timeout for closing the websockets, in seconds."""
@@ -40,11 +40,11 @@ class Workers:
             self._open = False
             os.close(self._write)
 
-    def end_together(self, loop: IOLoop) -> None:
+    def end_with_parent(self, loop: IOLoop) -> None:
         """Stop the event loop of this worker when the parent process exits."""
 
         def stop(*_: object) -> None:
-            # A closed pipe stays readable for ever, and the loop still runs once more.
+            # A closed pipe stays readable, and the loop would call this handler again.
             loop.remove_handler(self._read)
             loop.stop()
 
@@ -67,7 +67,7 @@ def exit_process(server: Server) -> NoReturn:
     with suppress(Exception):
         server.stop()
     with suppress(Exception):
-        server.io_loop.run_sync(lambda: say_goodbye(GOODBYE))
+        server.io_loop.run_sync(lambda: close_websockets(GOODBYE))
     logging.shutdown()
     for stream in (sys.stdout, sys.stderr):
         with suppress(OSError, ValueError):

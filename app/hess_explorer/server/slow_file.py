@@ -41,7 +41,7 @@ async def slow_file(words: Sequence[str], tell: Callable[[str], None]) -> bytes:
     WorkLimit
         After `LONGEST` seconds.
     """
-    # A killed process leaves temporary files, and its encoder may still be writing; this folder collects them.
+    # A killed process leaves temporary files, and its encoder may still be writing; this folder collects its files.
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         path = Path(folder) / "file"
         process = await asyncio.create_subprocess_exec(

@@ -82,7 +82,7 @@ def warm(first_is_ready: Callable[[], None] = lambda: None) -> None:
     first, *others = scenes()
     try:
         describe(first)
-        # At a first start another process compiles the circle map meanwhile, so that comes last.
+        # At a first start another process compiles the circle map meanwhile, so load the circle map last.
         compile_labels()
         compute(first, folded=False)
     finally:
@@ -101,7 +101,7 @@ def warm(first_is_ready: Callable[[], None] = lambda: None) -> None:
         _wait_until_quiet()
         describe(name)
     _wait_until_quiet()
-    # For formulas typed on the page.
+    # Formulas typed on the page need this kernel.
     compile_shared()
     gc.freeze()
 

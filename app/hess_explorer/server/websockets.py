@@ -36,9 +36,9 @@ class PanelSocket(WSHandler):
 
     def open(self) -> None:
         """Register this websocket as open."""
-        # A message consists of three frames: header, metadata and content.
+        # Each message consists of three frames: header, metadata and content.
         self._limit = RateLimit(frames=3)
-        # Raised for a client without the token of a page, after its websocket was closed.
+        # Panel raises ProtocolError for a client without the token of a page, and has then closed the websocket.
         with suppress(ProtocolError):
             super().open()  # type: ignore[no-untyped-call]  # Panel declares no types
             OPEN_SOCKETS.add(self)
@@ -50,7 +50,7 @@ class PanelSocket(WSHandler):
 
     async def on_message(self, fragment: str | bytes) -> None:
         """Process a frame within the limits."""
-        if self._limit.takes(self, fragment):
+        if self._limit.accepts(self, fragment):
             await super().on_message(fragment)
 
 
@@ -62,7 +62,7 @@ class StateSocket(WebSocketHandler):
 
     # Pings keep proxies from closing an idle websocket.
     ping_interval = 30.0
-    # A missing pong is no reason to close: a sleeping device may return.
+    # Keep the websocket without a pong: a sleeping device may return.
     ping_timeout = 0.0
 
     def initialize(self, capacity: Capacity, lessons: Sequence[Lesson], follow: Callable[[str], None] | None) -> None:
@@ -92,7 +92,7 @@ class StateSocket(WebSocketHandler):
 
     async def on_message(self, message: str | bytes) -> None:
         """Process a request within the limits."""
-        if self._connection is None or not self._limit.takes(self, message):
+        if self._connection is None or not self._limit.accepts(self, message):
             return
         # Back pressure: wait until the client has received the last response.
         if self._sent is not None:

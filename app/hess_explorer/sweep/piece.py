@@ -49,7 +49,7 @@ def compute(piece: SweepPlan) -> PieceResult:
             arrays[f"{own}_error"] = found.errors[name]
     arrays["status"] = found.status
     failed = np.flatnonzero(found.status == Outcome.FAILED).tolist()
-    failures = {cell_name({name: columns[name][i] for name in piece.axes}): found.why[i] for i in failed}
+    failures = {cell_name({name: columns[name][i] for name in piece.axes}): found.reasons[i] for i in failed}
     return {name: values.reshape(piece.shape) for name, values in arrays.items()}, failures
 
 
@@ -61,11 +61,11 @@ def serialize(plan: SweepPlan) -> bytes:
     import cloudpickle
 
     what = plan.computation
-    # By name where that is enough: a copy of a system would have to compile its kernels.
+    # Serialize importable functions by name: a copy of a system would have to compile its kernels.
     known = catalogue().get(what.key) is what
     try:
         return bytes(cloudpickle.dumps((what.key if known else what, plan.numbers, plan.accuracy, plan.fixed)))
-    # The objects that a function uses may raise anything.
+    # Serialization runs code of the user's objects, which may raise any exception.
     except Exception as error:
         raise InvalidParameter(
             f"{what.key} cannot be sent to other processes ({error}): omit workers, or avoid objects that cannot be "
@@ -93,7 +93,7 @@ def compute_sent(content: bytes, release: str, axes: Mapping[str, Array]) -> Pie
     return compute(replace(_plan_of(content), axes=axes))
 
 
-def cells_of_a_piece(plan: SweepPlan, workers: int) -> float:
+def piece_size(plan: SweepPlan, workers: int) -> float:
     """Return the maximum number of cells of a piece, from the measured cost of random cells."""
     cost = _seconds_of_a_cell(plan)
     seconds = min(_LONGEST, max(_SHORTEST, cost * plan.cells / (_PIECES * workers)))
@@ -111,7 +111,7 @@ def _seconds_of_a_cell(plan: SweepPlan) -> float:
         evaluate(plan.computation, plan.numbers, columns, as_level(plan.accuracy))
         return time.perf_counter() - begun
 
-    # The first cell compiles or loads kernels.
+    # Do not time the first cell, which compiles or loads kernels.
     trial(1)
     count = 1
     while (seconds := trial(count)) < _LONG_ENOUGH and 2 * count * _PART <= plan.cells:

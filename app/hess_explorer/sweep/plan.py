@@ -74,7 +74,7 @@ class SweepPlan:
         """Return a validated plan.  Raises `InvalidParameter`, and `WorkLimit` above `MAX_CELLS` cells."""
         if not isinstance(over, Mapping) or not 1 <= len(over) <= _MOST_AXES:
             raise InvalidParameter(
-                f"over = {over!s:.80}: give a mapping of one to {_MOST_AXES} parameters to their values."
+                f"over = {over!s:.80} is not a valid mapping: map one to {_MOST_AXES} parameters to their values."
             )
         if both := over.keys() & fixed:
             raise InvalidParameter(f"{min(both)} is both swept and fixed: give it only once.")
@@ -85,7 +85,9 @@ class SweepPlan:
         others = {one.name: float(given[one.name]) for one in what.parameters if one.name not in over}
         plan = cls(what, tuple(numbers), accuracy, axes, others, source)
         if plan.cells > MAX_CELLS:
-            raise WorkLimit(f"The sweep has {plan.cells} cells, but at most {MAX_CELLS} are allowed: divide it.")
+            raise WorkLimit(
+                f"The sweep has {plan.cells} cells, but at most {MAX_CELLS} are allowed: sweep smaller ranges."
+            )
         return plan
 
     @property

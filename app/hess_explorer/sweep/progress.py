@@ -20,14 +20,14 @@ class Progress(NamedTuple):
         Total number of cells.
     seconds : float
         Wall time so far, in seconds.
-    left : float or None
+    remaining : float or None
         Estimated remaining time in seconds; None until a cell is finished.
     """
 
     done: int
     cells: int
     seconds: float
-    left: float | None
+    remaining: float | None
 
 
 _EVERY = 30.0
@@ -41,7 +41,7 @@ def progress_report(progress: bool | Report | None, cells: int, before: int) -> 
     if not callable(progress):
         from tqdm.auto import tqdm
 
-        # The stderr of a notebook is not a terminal but is shown.
+        # A notebook shows stderr although it is not a terminal.
         is_seen = sys.stderr.isatty() or "ipykernel" in sys.modules
         wait = {} if is_seen else {"mininterval": _EVERY, "delay": _EVERY}
         with tqdm(

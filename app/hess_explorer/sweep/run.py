@@ -13,7 +13,7 @@ import numpy as np
 from hess_explorer.compute.cells import Outcome, evaluate
 from hess_explorer.sweep.errors import Interrupted, StoreError, WorkersLost
 from hess_explorer.sweep.function import computation_of
-from hess_explorer.sweep.piece import cell_name, cells_of_a_piece
+from hess_explorer.sweep.piece import cell_name, piece_size
 from hess_explorer.sweep.plan import Axis, SweepPlan
 from hess_explorer.sweep.progress import Report, progress_report
 from hess_explorer.sweep.store import create, exists, load, missing, require_libraries, write
@@ -123,7 +123,7 @@ def sweep(
         # A finished sweep needs no workers.
         with nullcontext() if todo == [] else connection(workers, scheduler) as client:
             if todo is None:
-                place = create(path, plan, cells_of_a_piece(plan, size(client)))
+                place = create(path, plan, piece_size(plan, size(client)))
                 todo = missing(place, plan)
             done = plan.cells - sum(plan.part(region).cells for region in todo)
             pieces = results(client, plan, todo)
@@ -176,7 +176,8 @@ def explain(result: xr.Dataset, **cell: float) -> str:
     facts = result.attrs
     if {*cell} != {*result.status.dims}:
         raise InvalidParameter(
-            f"{', '.join(cell) or 'No coordinate'} given: pass values of {', '.join(map(str, result.status.dims))}."
+            f"A cell cannot be given by {' and '.join(cell) or 'nothing'}: pass values of "
+            f"{', '.join(map(str, result.status.dims))}."
         )
     cell = {name: as_number(name, cell[name]) for name in map(str, result.status.dims)}
     if (failure := json.loads(facts["failures"]).get(cell_name(cell))) is not None:
@@ -186,4 +187,4 @@ def explain(result: xr.Dataset, **cell: float) -> str:
     columns = {name: np.array([value]) for name, value in {**json.loads(facts["parameters"]), **cell}.items()}
     numbers = facts["numbers"].split(", ")
     outcome = evaluate(find(facts["computation"]), numbers, columns, as_level(facts["accuracy"]))
-    return outcome.why.get(0, f"{Outcome(int(outcome.status[0])).words}.")
+    return outcome.reasons.get(0, f"{Outcome(int(outcome.status[0])).words}.")

@@ -160,12 +160,14 @@ def write(place: Path | MemoryStore, region: Region, done: PieceResult) -> None:
         if failures:
             facts = zarr.open_group(place, mode="r+", use_consolidated=False).attrs
             both = json.loads(str(facts["failures"])) | failures
-            # In an order that does not depend on which worker was first.
+            # Sort the failures, so that their order does not depend on the workers.
             facts["failures"] = json.dumps(dict(islice(sorted(both.items()), _MOST_FAILURES)))
         for variables in (parts, status):
             xr.Dataset(variables).to_zarr(place, region=region, consolidated=False)
     except (OSError, ValueError) as error:
-        raise StoreError(f"{str(place)!r} cannot be written ({error}).") from error
+        raise StoreError(
+            f"{str(place)!r} cannot be written ({error}): check the free space and the permissions."
+        ) from error
 
 
 @contextmanager

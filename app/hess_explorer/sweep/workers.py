@@ -61,7 +61,7 @@ def results(client: Client | None, plan: SweepPlan, regions: Iterable[Region]) -
                 yield region, future.result()
             except WorkersLost:
                 raise
-            # Several workers died on this piece, or a worker could not read it; the other pieces go on.
+            # Several workers died on this piece, or a worker could not read it; continue with the other pieces.
             except Exception as error:
                 lost.append(f"{type(error).__name__}: {shorten(str(error), 200, placeholder=' …')}")
     finally:
@@ -76,7 +76,7 @@ def connection(workers: str | int | None, scheduler: str | Client | None) -> Ite
 
     Raises `WorkersLost` if no worker responds, `InvalidParameter` if the workers cannot be used.
     """
-    # Dask starts one worker for each core of this process without a number.
+    # Without a number, Dask starts one worker for each core of this process.
     count = None if workers == "all" else as_integer("workers", workers or 1, 1, 1000)
     if scheduler is None and count == 1:
         yield None
@@ -87,10 +87,10 @@ def connection(workers: str | int | None, scheduler: str | Client | None) -> Ite
     if isinstance(scheduler, Client):
         yield scheduler
         return
-    # No dashboard: its port may be in use.
+    # Start no dashboard, because its port may be in use.
     quiet = {"dashboard": False, "dashboard_address": "127.0.0.1:0"}
     with ExitStack() as stack:
-        # Dask's profiler looks at each worker a hundred times a second.
+        # Disable Dask's profiler, which samples each worker a hundred times a second.
         stack.enter_context(dask.config.set({"distributed.worker.profile.enabled": False}))
         try:
             at = scheduler or stack.enter_context(
@@ -111,7 +111,7 @@ def connection(workers: str | int | None, scheduler: str | Client | None) -> Ite
                 f"No Dask scheduler with a worker responded at {scheduler} within {_WAIT:g} s: start one with "
                 "`dask scheduler`, and workers with `dask worker`."
             ) from error
-        # Dask raises these in a script without `if __name__ == "__main__"`, and for tls:// without certificates.
+        # Dask raises these errors in a script without `if __name__ == "__main__"`, and for tls:// without certificates.
         except (TypeError, RuntimeError) as error:
             raise InvalidParameter(
                 f"The workers cannot be used ({error}): in a script, call `sweep` below `if __name__ == '__main__':`; "

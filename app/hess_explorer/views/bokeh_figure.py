@@ -46,8 +46,8 @@ _BOX: Layer[Any] = Layer(
 def build(plot: Plot[Any]) -> figure:
     """Return the plot as a Bokeh model, with empty sources."""
     axes, names = plot.first_axes, plot.axes if isinstance(plot.axes, tuple) else (" ", " ")
-    # Transparent, so that the theme of the page shows.  An invisible background that is still painted makes Bokeh
-    # begin a new path for the outline; without it Bokeh strokes the ticks of the previous painting again.
+    # A transparent background shows the theme of the page.  It must still be painted: otherwise Bokeh begins no new
+    # path for the outline, and strokes the ticks of the previous painting again.
     root = figure(
         name=plot.name,
         x_range=Range1d(start=axes.x[0], end=axes.x[1]),
@@ -87,7 +87,7 @@ def build(plot: Plot[Any]) -> figure:
             for column in layer.columns:
                 source.data.setdefault(column, [])
             look = {**dict(zip(positions, layer.columns, strict=False)), **layer.style}
-            root.add_glyph(source, glyph(**look), name=layer.name, level="overlay" if layer.moving else "glyph")
+            root.add_glyph(source, glyph(**look), name=layer.name, level="overlay" if layer.is_overlay else "glyph")
     return root
 
 
@@ -96,7 +96,7 @@ def _item(root: figure) -> dict[str, Any]:
 
     The page already has these 150 kB, and writing them is slow.
     """
-    # The serializer identifies objects by their address, so this document must stay alive.
+    # Keep a reference to this document, because the serializer identifies objects by their address.
     serializer, empty = Serializer(deferred=False), Document()
     config = serializer.encode(empty.config)
     document = {"version": __version__, "title": "", "config": config, "roots": serializer.encode([root])}

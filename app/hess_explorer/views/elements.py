@@ -68,7 +68,7 @@ def overlay(
     colour : callable
         Maps the colours of the page.
     """
-    # Cells lie below all other layers.
+    # Draw the cells below all other layers.
     layers = sorted(plot.all_layers, key=lambda layer: layer.glyph != "image")
     drawn = [
         _element(layer, columns[plot.source_of(layer)], colour)
@@ -114,7 +114,7 @@ def _with_colours(style: Style, colour: Colour) -> Options:
 def _element(layer: Layer[Any], columns: Columns, colour: Colour) -> hv.Element:
     kind = _KINDS[layer.glyph]
     element = kind.element(layer.name.replace("-", " "), *(columns[name] for name in layer.columns))
-    # The ends of the colours of cells may depend on the state.
+    # The range of the colour scale may depend on the state.
     ends = {name: columns[name][0] for name in ("low", "high") if layer.glyph == "image" and name in columns}
     style = _with_colours({**layer.style, **ends}, colour)
     hooks = {} if kind.hook is None else {"hooks": [kind.hook(style)]}
@@ -203,14 +203,14 @@ def _scale(style: Style) -> Options:
 
 
 def _interpolation(style: Style) -> Options:
-    # Cyclic numbers must not be interpolated: −½ and ½ would give 0.
+    # Do not interpolate cyclic numbers: −½ and ½ would give 0.
     even = style["smooth"] and not style["cyclic"]
     kept = "antialiased" if style["fine"] else "nearest"
     return {**_scale(style), "interpolation": "bilinear" if even else kept}
 
 
 def _word(style: Style) -> Options:
-    # HoloViews knows no background of words.
+    # A plot of HoloViews cannot hold a text without axes values.
     left_out = ("x_offset", "y_offset", "background_fill_color", "background_fill_alpha")
     return {name: value for name, value in style.items() if name not in left_out}
 
@@ -239,7 +239,7 @@ def _finish(plot: Any, element: hv.Overlay) -> None:
             text.set_fontsize(min(text.get_fontsize(), largest))
         (x0, x1), (y0, y1), (x, y) = axis.get_xlim(), axis.get_ylim(), text.get_position()
         text.set(visible=x0 <= x <= x1 and y0 <= y <= y1, in_layout=False)
-        # No font with a bold 𝒟 comes with Matplotlib.
+        # Matplotlib ships no bold font with 𝒟.
         if "𝒟" in text.get_text():
             text.set_fontweight("normal")
 

@@ -97,7 +97,7 @@ class Sign:
     least: float | None = None
 
 
-TURNS = Sign("ρ from −½ to ½, the same", "box rho", f"background: {theme.gradient(theme.TURN_MAP)}")
+TURNS = Sign("ρ from −½ to ½ (cyclic)", "box rho", f"background: {theme.gradient(theme.TURN_MAP)}")
 """Legend entry of the scale of rotation numbers."""
 MOVING_POINT = Sign("moving point", "dot", f"background: {theme.POINT}; border: 1.5px solid")
 _QUARTERS = f"{theme.INK} 25%, {theme.PAPER} 0 50%, {theme.INK} 0 75%, {theme.PAPER} 0"
@@ -121,9 +121,9 @@ class Layer(Generic[S]):
         Properties of the glyph.
     data : callable or None
         `data(state)` returns the columns; empty for no data.
-    within : callable or None
-        `within(state, axes)` returns the columns if they depend on the axes.
-    moving : bool
+    data_in_axes : callable or None
+        `data_in_axes(state, axes)` returns the columns if they depend on the axes.
+    is_overlay : bool
         True if the layer changes with every state; it then lies above axes and background, which are not repainted.
     legend : tuple of Sign
         Entries in the legend of the scene.
@@ -136,9 +136,9 @@ class Layer(Generic[S]):
     columns: tuple[str, ...]
     style: Mapping[str, Any] = field(default_factory=dict)
     data: Callable[[S], Columns] | None = None
-    within: Callable[[S, Axes], Columns] | None = None
+    data_in_axes: Callable[[S, Axes], Columns] | None = None
     track: str | None = None
-    moving: bool = True
+    is_overlay: bool = True
     legend: tuple[Sign, ...] = ()
     tag: str = ""
 
@@ -146,7 +146,7 @@ class Layer(Generic[S]):
 Layers = tuple[Layer[S], ...]
 Data = Callable[[S], Any] | None
 """The data of a layer as a function of the state."""
-Within = Callable[[S, Axes], Any] | None
+AxesData = Callable[[S, Axes], Any] | None
 """The data of a layer as a function of the state and the axes."""
 
 
@@ -208,13 +208,13 @@ def _layer(
     layer: Layer[S],
     convert: Callable[[Any], Columns],
     data: Data[S],
-    within: Within[S] = None,
+    data_in_axes: AxesData[S] = None,
 ) -> Layer[S]:
     """Return the layer with its data converted to columns."""
     return replace(
         layer,
         data=None if data is None else lambda state: convert(data(state)),
-        within=None if within is None else lambda state, axes: convert(within(state, axes)),
+        data_in_axes=None if data_in_axes is None else lambda state, axes: convert(data_in_axes(state, axes)),
     )
 
 
@@ -223,7 +223,7 @@ def _signed(label: str, kind: str, style: str) -> tuple[Sign, ...]:
 
 
 def _stroked(layer: Layer[S], color: str, width: float, dash: str, alpha: float, label: str) -> Layer[S]:
-    # CSS has no dash-dot line.
+    # CSS has no dash-dot lines.
     sign = f"border-top: {max(2.0, width):g}px {'dashed' if dash == 'dotdash' else dash} {color}"
     return replace(
         layer,
@@ -243,12 +243,12 @@ def line(
     tag: str = "",
     columns: tuple[str, str] = ("x", "y"),
     track: str | None = None,
-    within: Within[S] = None,
+    data_in_axes: AxesData[S] = None,
 ) -> Layer[S]:
     """Return a layer with one curve: `data(state)` returns (x, y) or None; or it draws columns of a track."""
     layer: Layer[S] = Layer(name, "line", columns, track=track, tag=tag)
     return _layer(
-        _stroked(layer, color, width, dash, 1.0, label), lambda value: _positions(columns, value), data, within
+        _stroked(layer, color, width, dash, 1.0, label), lambda value: _positions(columns, value), data, data_in_axes
     )
 
 
@@ -262,12 +262,12 @@ def curves(
     alpha: float = 1.0,
     label: str = "",
     tag: str = "",
-    moving: bool = True,
-    within: Within[S] = None,
+    is_overlay: bool = True,
+    data_in_axes: AxesData[S] = None,
 ) -> Layer[S]:
     """Return a layer of curves; `data(state)` returns arrays (n, 2), or None."""
-    layer: Layer[S] = Layer(name, "multi_line", ("xs", "ys"), moving=moving, tag=tag)
-    return _layer(_stroked(layer, color, width, dash, alpha, label), _parts, data, within)
+    layer: Layer[S] = Layer(name, "multi_line", ("xs", "ys"), is_overlay=is_overlay, tag=tag)
+    return _layer(_stroked(layer, color, width, dash, alpha, label), _parts, data, data_in_axes)
 
 
 def region(
@@ -278,8 +278,8 @@ def region(
     edge: str | None = None,
     label: str = "",
     tag: str = "",
-    moving: bool = False,
-    within: Within[S] = None,
+    is_overlay: bool = False,
+    data_in_axes: AxesData[S] = None,
 ) -> Layer[S]:
     """Return a layer of filled regions, each with an outer closed curve (n, 2) and the curves of its holes."""
     layer: Layer[S] = Layer(
@@ -287,11 +287,11 @@ def region(
         "multi_polygons",
         ("xs", "ys"),
         {"fill_color": color, "line_color": edge},
-        moving=moving,
+        is_overlay=is_overlay,
         legend=_signed(label, "box", f"background: {color}"),
         tag=tag,
     )
-    return _layer(layer, _regions, data, within)
+    return _layer(layer, _regions, data, data_in_axes)
 
 
 def points(
@@ -308,7 +308,7 @@ def points(
     label: str = "",
     tag: str = "",
     columns: tuple[str, ...] = ("x", "y"),
-    within: Within[S] = None,
+    data_in_axes: AxesData[S] = None,
 ) -> Layer[S]:
     """Return a layer of markers; `data(state)` returns (x, y), (x, y, angle) or None."""
     small = size < 10 and not hollow
@@ -335,7 +335,7 @@ def points(
         legend=_signed(label, " ".join(["dot", *(["small"] if small else []), *shape]), look),
         tag=tag,
     )
-    return _layer(layer, lambda value: _positions(columns, value), data, within)
+    return _layer(layer, lambda value: _positions(columns, value), data, data_in_axes)
 
 
 def dots(
@@ -386,13 +386,13 @@ def ring(
     label: str = "",
     tag: str = "",
     columns: tuple[str, str] = ("x", "y"),
-    within: Within[S] = None,
+    data_in_axes: AxesData[S] = None,
 ) -> Layer[S]:
     """Return a layer of rings at points; `data(state)` returns [(x, y), …]."""
     layer: Layer[S] = points(
         name, color=color, size=size, hollow=True, edge_width=width, label=label, tag=tag, columns=columns
     )
-    return _layer(layer, lambda value: _rows(columns, value), data, within)
+    return _layer(layer, lambda value: _rows(columns, value), data, data_in_axes)
 
 
 def _rows(columns: Sequence[str], value: Sequence[Sequence[Any]]) -> Columns:
@@ -466,7 +466,7 @@ def image(
             "kinds": kinds,
             "fine": fine,
         },
-        moving=False,
+        is_overlay=False,
         legend=legend,
         tag=tag,
     )
@@ -484,7 +484,7 @@ def levels(name: str, data: Callable[[S], Sequence[float]]) -> Layer[S]:
         reach = high - low
         return [np.array([[low - reach, y], [high + reach, y]]) for y in data(state)]
 
-    return curves(name, within=across, color=theme.MUTED, dash="dotted", width=1.5)
+    return curves(name, data_in_axes=across, color=theme.MUTED, dash="dotted", width=1.5)
 
 
 def names(
@@ -494,12 +494,12 @@ def names(
     size: int = 16,
     above: int = 0,
     on_paper: bool = False,
-    within: Within[S] = None,
+    data_in_axes: AxesData[S] = None,
 ) -> Layer[S]:
     """Return a layer of words at or `above` places; `data(state)` returns [(x, y, word), …]."""
     paper = _PAPER if on_paper else {}
     layer: Layer[S] = _words(name, size, text_baseline="bottom" if above else "middle", y_offset=-above, **paper)
-    return _layer(layer, lambda value: _rows(layer.columns, value), data, within)
+    return _layer(layer, lambda value: _rows(layer.columns, value), data, data_in_axes)
 
 
 def label(layer: Layer[S]) -> Layer[S]:
@@ -523,7 +523,7 @@ def text(name: str, data: Callable[[S], str]) -> Layer[S]:
         "x_offset": -6,
         "y_offset": -4,
     }
-    return Layer(name, "text", ("x", "y", "text"), style, within=there)
+    return Layer(name, "text", ("x", "y", "text"), style, data_in_axes=there)
 
 
 POINT: Layer[Any] = replace(

@@ -43,7 +43,7 @@ class Picture(ABC, Generic[S]):
         `on_hover(state, x, y)` returns the tooltip at a point; it raises `ModelError`.
     signs : tuple of Sign
         Legend entries in addition to those of the layers.
-    drawn_from : tuple of str
+    source_pictures : tuple of str
         Names of other pictures whose data sources it draws.
     button : str
         Label of the button that shows the picture; empty for a picture that is visible at first.
@@ -58,7 +58,7 @@ class Picture(ABC, Generic[S]):
     on_box: Callable[[S, Corners], Values] | None = None
     on_hover: Callable[[S, float, float], str] | None = None
     signs: tuple[Sign, ...] = ()
-    drawn_from: tuple[str, ...] = ()
+    source_pictures: tuple[str, ...] = ()
     button: str = ""
 
     kind: ClassVar[str]
@@ -77,7 +77,7 @@ class Picture(ABC, Generic[S]):
 
         def through(value: Any) -> Any:
             if isinstance(value, Layer):
-                return replace(value, data=through(value.data), within=through(value.within))
+                return replace(value, data=through(value.data), data_in_axes=through(value.data_in_axes))
             if type(value) is tuple:
                 return tuple(map(through, value))
             return (lambda state, *more: value(part(state), *more)) if callable(value) else value
@@ -87,9 +87,9 @@ class Picture(ABC, Generic[S]):
         return found
 
     @property
-    def needs(self) -> frozenset[str]:
+    def dependencies(self) -> frozenset[str]:
         """Names of the pictures whose data the picture requires."""
-        return frozenset(self.drawn_from)
+        return frozenset(self.source_pictures)
 
     @property
     def tracks(self) -> frozenset[str]:

@@ -166,7 +166,11 @@ class Plot(Picture[S]):
     def data_in_axes(self, state: S, axes: Axes | None, drawn: Sources) -> Sources:
         """Return the columns that depend on the axes, by data source."""
         assert axes is not None
-        found = {self.source_of(layer): layer.within(state, axes) for layer in self.layers if layer.within is not None}
+        found = {
+            self.source_of(layer): layer.data_in_axes(state, axes)
+            for layer in self.layers
+            if layer.data_in_axes is not None
+        }
         sentence = "" if self.message is None else self.message(state)
         sources = [self.source_of(layer) for layer in self.layers]
         columns = [{**drawn.get(source, {}), **found.get(source, {})} for source in sources]

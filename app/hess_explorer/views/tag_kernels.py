@@ -37,7 +37,7 @@ def mark(grid, points, value):
 
 @kernel
 def fill(grid, ring):
-    """Negate the cells whose middle is inside a closed curve (2, n): those right of an odd number of its edges."""
+    """Negate the cells whose middle is inside a closed curve (2, n), that is, right of an odd number of its edges."""
     cells, n = grid.shape[0], ring.shape[1]
     for i in range(n):
         j = i + 1 if i + 1 < n else 0

@@ -20,7 +20,17 @@ from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.results import Array, Mask
 from hess_mechanics.parameters import Parameter
 
-__all__ = ["Choice", "Computation", "Many", "NoValue", "Number", "Scalar", "declare", "largest_difference", "real"]
+__all__ = [
+    "Choice",
+    "Computation",
+    "NoValue",
+    "Number",
+    "Scalar",
+    "VectorizedResult",
+    "declare",
+    "largest_difference",
+    "real",
+]
 
 Value = float | str
 
@@ -183,7 +193,7 @@ class Scalar(Result):
         return Labels({}, {}, facts={"value": self.value}) if self.of is None else self.of.labels()
 
 
-Many = tuple[Mapping[str, Array], Mapping[type[ModelError], Mask]]
+VectorizedResult = tuple[Mapping[str, Array], Mapping[type[ModelError], Mask]]
 """Numbers of many cells by name, NaN where there is none, and the cells without one by the type of their error."""
 
 
@@ -223,7 +233,7 @@ class Computation:
         Label of the equation in the paper, or a citation.
     group : {"compute", "prove"}, default "compute"
         Heading of its command.
-    many : callable, optional
+    vectorized : callable, optional
         Function many(accuracy, **columns) that computes some of the numbers for many cells at once.
     """
 
@@ -241,7 +251,7 @@ class Computation:
     system: str = ""
     source: str = ""
     group: Literal["compute", "prove"] = "compute"
-    many: Callable[..., Many] | None = None
+    vectorized: Callable[..., VectorizedResult] | None = None
 
     @property
     def key(self) -> str:
@@ -324,7 +334,7 @@ class Computation:
         values: dict[str, Value] = {}
         for one in self.parameters:
             value = one.check(as_number(one.name, arguments.get(one.name, one.default)))
-            values[one.name] = int(value) if one.whole else value
+            values[one.name] = int(value) if one.is_integer else value
         for choice in self.choices:
             word = str(arguments.get(choice.name, choice.default))
             if word not in choice.names:
@@ -356,7 +366,7 @@ class Computation:
         return Scalar(result) if isinstance(result, float) else result
 
     def error(self, result: Any, exact: Any) -> float:
-        """Return the distance of a result from a more accurate one.
+        """Return the distance of a result from a more accurate result.
 
         Parameters
         ----------

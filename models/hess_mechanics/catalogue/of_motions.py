@@ -32,7 +32,7 @@ _STEPS = (
 )
 _TUBE_PARAMETERS = (
     with_default(known.TIME, 2.0),
-    integer("samples", "n", 5, 2, MAX_SAMPLES, "Evenly spaced times, with 0."),
+    integer("samples", "n", 5, 2, MAX_SAMPLES, "Number of evenly spaced times, including 0."),
     integer("digits", "n", 18, 1, 100, "Number of digits that determines the width of the intervals."),
     real(
         "seconds",
@@ -80,7 +80,11 @@ def computations(system: System) -> Iterator[Computation]:
         "orbit",
         "Orbit",
         solve,
-        (with_default(known.TIME, 50.0), integer("samples", "n", 500, 2, MAX_SAMPLES, "Evenly spaced times."), *_STEPS),
+        (
+            with_default(known.TIME, 50.0),
+            integer("samples", "n", 500, 2, MAX_SAMPLES, "Number of evenly spaced times."),
+            *_STEPS,
+        ),
         {
             **{
                 name: Number(
@@ -179,7 +183,7 @@ def computations(system: System) -> Iterator[Computation]:
         },
         Kind.INDICATOR,
         "values",
-        # One thread: the cells of a sweep share the cores.
+        # Use one thread, because the cells of a sweep share the cores.
         lambda body, start, **more: complete(megno(body, [start], threads=1, **more)),
         example={"duration": 50.0},
     )
@@ -202,10 +206,13 @@ def computations(system: System) -> Iterator[Computation]:
         "proved-orbit",
         "Orbit with a proved error",
         proved_orbit,
-        (*_TUBE_PARAMETERS, real("right_to", "ε", 1e-6, 1e-300, 1e3, "Largest error of an orbit that is right.")),
+        (
+            *_TUBE_PARAMETERS,
+            real("right_to", "ε", 1e-6, 1e-300, 1e3, "Largest error of a state that counts as correct."),
+        ),
         {
             "error": Number("ε", "upper end of the proved largest error", "largest"),
-            "right-until": Number("t", "last time at which the orbit is right", "right_until", "time"),
+            "right-until": Number("t", "last time up to which the orbit is correct", "valid_until", "time"),
         },
         Kind.ORBIT,
         lambda r, exact: r.largest,

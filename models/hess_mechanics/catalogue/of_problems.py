@@ -9,7 +9,7 @@ from functools import lru_cache
 import numpy as np
 
 from hess_mechanics import parameters as known
-from hess_mechanics.catalogue.declared import Computation, Many, NoValue, Number, Scalar, real
+from hess_mechanics.catalogue.declared import Computation, NoValue, Number, Scalar, VectorizedResult, real
 from hess_mechanics.chaplygin_ball.ball_scattering import ball_scattering
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.chaplygin_ball.integrable_cases import period
@@ -42,9 +42,9 @@ def _circle_map(accuracy: Level, a: float, h: float, f: float, phi: float) -> Sc
     return Scalar(float(theta.theta([phi])[0]), theta.error_estimate, theta)
 
 
-def _tori(accuracy: Level, a: Array, h: Array, f: Array, phi: Array) -> Many:
+def _tori(accuracy: Level, a: Array, h: Array, f: Array, phi: Array) -> VectorizedResult:
     tori = values_at(a, h, f, accuracy)
-    # (h, f) = (1, 0) is the separatrix; all other impossible tori lie outside of the region.
+    # (h, f) = (1, 0) is the separatrix; all other impossible tori lie outside the region.
     separatrix = ~tori.possible & (np.hypot(h - 1.0, f) < 1e-6)
     numbers = {"rotation-number": tori.rho, "trace": tori.trace, "locked": tori.locked.astype(float)}
     return (
@@ -71,7 +71,7 @@ _CIRCLE = (with_default(known.THETA, 1.0), with_default(known.CIRCLE_PHASE, 0.0)
 _INNER = with_default(known.D, 1.0)
 
 
-# Many cells of a sweep over angles share a body.
+# Cache the result, because many cells of a sweep over angles share a body.
 _cached_scattering = lru_cache(maxsize=256)(scattering)
 
 
@@ -149,13 +149,13 @@ COMPUTATIONS: tuple[Computation, ...] = (
             ),
         },
         Kind.MAP,
-        # Differences of angles up to full turns.
+        # Compare angles up to full turns.
         lambda r, exact: np.abs(np.angle(np.exp(1j * (r.of.theta(_ANGLES) - exact.of.theta(_ANGLES))))).max(),
         _circle_map,
         unit="rad",
         example={"a": 0.5, "h": 1.5, "f": 0.6},
         source="eq0003",
-        many=_tori,
+        vectorized=_tori,
     ),
     Computation(
         "critical-a",
@@ -180,7 +180,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
                 0.0,
                 0.0,
                 1.0,
-                "Phases belong to the place where ω across ξ is this fraction of |ω⁻|; 0: phases for t → −∞.",
+                "Phases are taken where ω across ξ is this fraction of |ω⁻|; 0: phases for t → −∞.",
             ),
         ),
         {

@@ -31,9 +31,13 @@ __all__ = ["computations"]
 Point = tuple[float, ...]
 
 _UNDECIDED = (MotionKind.UNDECIDED, MotionKind.SETTLING)
-_TRANSIENT = integer("transient", "N₀", 300, 0, 20_000, "Crossings skipped.")
-_CROSSINGS = integer("crossings", "N", 200, 8, 20_000, "Crossings analysed.")
-_REGIME_PARAMETERS = _TRANSIENT, _CROSSINGS, with_default(known.SPAN, 200.0, "Time of MEGNO and the mean divergence.")
+_TRANSIENT = integer("transient", "N₀", 300, 0, 20_000, "Number of crossings to skip.")
+_CROSSINGS = integer("crossings", "N", 200, 8, 20_000, "Number of crossings to analyse.")
+_REGIME_PARAMETERS = (
+    _TRANSIENT,
+    _CROSSINGS,
+    with_default(known.SPAN, 200.0, "Averaging time of MEGNO and of the mean divergence."),
+)
 
 
 # ---- functions of a point of a section ------------------------------------------------------------------------------
@@ -44,12 +48,12 @@ def _periodic(map_: ReturnMap, point: Point, period: int) -> PeriodicOrbit:
 
 
 def _from_orbit(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a function of a map and a point, from one of a map and a periodic orbit."""
+    """Convert a function of a map and a periodic orbit to a function of a map and a point."""
     return lambda map_, point, period, **more: function(map_, _periodic(map_, point, period), **more)
 
 
 def _along(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a function over evenly spaced values of a parameter, from one over any values."""
+    """Convert a function over any values of a parameter to a function over evenly spaced values."""
     return lambda map_, point, parameter, low, to, values, **more: function(
         map_, parameter, np.linspace(low, to, values), point, **more
     )
@@ -110,15 +114,15 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         A computation, without the parameters of the section.
     """
     constants = example.constants
-    # By default, a little above the energy.
+    # The default lies a little above the energy.
     name = next((one for one in ("E", "h") if one in constants), [*constants][-1])
-    over = (Choice("parameter", "Parameter that changes.", (*constants,), name),)
+    over = (Choice("parameter", "Parameter to vary.", (*constants,), name),)
     value = constants[name]
     to = real("to", "to", value + 0.1 * max(1.0, abs(value)), -1e6, 1e6, "Last value of the parameter.")
     ends = real("low", "from", value, -1e6, 1e6, "First value of the parameter."), to
     values = integer("values", "n", 50, 2, 20_000, "Number of values of the parameter.")
     transient = with_default(_TRANSIENT, 200.0)
-    returns = integer("period", "N", period, 0, MAX_PERIOD, "Number of returns; 0: detected, up to 12.")
+    returns = integer("period", "N", period, 0, MAX_PERIOD, "Number of returns; 0: detected automatically, up to 12.")
     yield Computation(
         "periodic-orbit",
         "Periodic orbit",
@@ -177,7 +181,9 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
             values,
             transient,
             integer("crossings", "N", 64, 1, 20_000, "Crossings shown at each value."),
-            integer("follow", "f", 1, 0, 1, "1: each value starts where the one before ends; 0: at the chosen point."),
+            integer(
+                "follow", "f", 1, 0, 1, "1: each value starts where the previous one ends; 0: at the chosen point."
+            ),
             integer("backward", "−t", 0, 0, 1, "1: backward in time, to repellers."),
         ),
         {"period": Number("N", "period at the last value, 0 if none is seen", lambda r: r.periods[-1])},
@@ -206,7 +212,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         _REGIME_PARAMETERS,
         {
             "distance": Number("d", "distance of attractor and repeller", "distance", error_reader="distance_error"),
-            "shared": Number("s", "fraction of the points that both share", "overlap"),
+            "shared": Number("s", "fraction of the points common to both sets", "overlap"),
         },
         Kind.INDICATOR,
         example={"transient": 60.0, "crossings": 64.0, "duration": 50.0},
@@ -254,7 +260,7 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
             integer("across", "m", 40, 1, 1000, "Number of cells across."),
             integer("up", "n", 30, 1, 1000, "Number of cells up."),
             *(
-                real(name, name, value, -1e6, 1e6, "Side of the window.")
+                real(name, name, value, -1e6, 1e6, "Edge of the window.")
                 for name, value in (("x0", x0), ("x1", x1), ("y0", y0), ("y1", y1))
             ),
             with_default(known.SPAN, 1000.0, "Time over which the divergence is averaged."),
@@ -271,6 +277,6 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
 
 
 def _points_away(one: PlanePoints, exact: PlanePoints) -> float:
-    """Return the largest distance of the first twenty points of each orbit; later ones of chaotic orbits differ."""
+    """Return the largest distance of the first twenty points of each orbit; later points differ by chaos."""
     pairs = zip(one.orbits, exact.orbits, strict=False)
     return max((largest_difference(a[:20], b[:20]) for a, b in pairs), default=np.nan)

@@ -29,7 +29,7 @@ from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import REFERENCE, STANDARD, Accuracy, Level, Status
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
-from hess_mechanics.numerics.results import Array, Complex, Cost, frozen
+from hess_mechanics.numerics.results import Array, Complex, Cost, as_read_only
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov.equations import SuslovBody
 from hess_mechanics.suslov.free import vertical
@@ -37,7 +37,7 @@ from hess_mechanics.suslov.scattering import scattering
 
 __all__ = ["BallScattering", "all_phases", "ball_scattering", "free_theta_plus", "start", "starts"]
 
-MOST_STEPS = 20_000_000
+MAX_STEPS = 20_000_000
 _MOST_SWING = 300.0
 _MOST_TURN = 0.3
 """Largest angle from the circle up to which the first order in the distance is used."""
@@ -97,7 +97,7 @@ class BallScattering(Result):
         """The points (φ, θ⁺) in rows (n, 2)."""
         return np.column_stack([self.phis, self.theta_plus])
 
-    def at(self, phi: float) -> float:
+    def theta_plus_at(self, phi: float) -> float:
         """Return θ⁺ at a phase by linear interpolation.
 
         Parameters
@@ -142,7 +142,7 @@ def _lag(body: BallBody, theta: float, phis: Array) -> Complex | None:
     order = np.fft.fftfreq(grid.size, 1.0 / grid.size)
     mean = growth[0].real
     wave = np.divide(growth, 1j * order, out=np.zeros_like(growth), where=order != 0.0)
-    # ∫(μ − mean) is periodic; it remains to integrate a periodic function times e^(−mean s).
+    # The integral ∫(μ − mean) is periodic, so the remaining integrand is a periodic function times e^(−mean s).
     swing = np.fft.ifft(wave * grid.size).real
     if np.ptp(swing) > _MOST_SWING:
         return None
@@ -251,7 +251,7 @@ def free_theta_plus(body: BallBody, theta: float, distance: float, phis: tuple[f
         If γ rotates too often during the passage.
     """
     free = SuslovBody(body.I11, body.I22, body.I13, body.I23)
-    return frozen(scattering(free, STANDARD, 1, distance).theta_plus(theta, np.array(phis)))
+    return as_read_only(scattering(free, STANDARD, 1, distance).theta_plus(theta, np.array(phis)))
 
 
 def _rates(strip: Strip, theta: Array) -> Array:
@@ -267,7 +267,7 @@ def ball_scattering(
     h: float,
     distance: float,
     accuracy: Accuracy,
-    max_steps: float = MOST_STEPS,
+    max_steps: float = MAX_STEPS,
 ) -> BallScattering:
     """Return the circles that motions from one circle of N^u approach, over the phase at the start.
 
@@ -336,7 +336,8 @@ def ball_scattering(
     # factors 4 and 40 allow for the passage between them.
     with np.errstate(divide="ignore"):
         span = math.log(4.0 / abs(distance)) / rates[0] + math.log(40.0 / level.promise) / rates.min()
-    # Steps must resolve the small distance, which determines the departure; half the promise is for other errors.
+    # Steps must resolve the small distance, which determines the departure; the other half of the promise covers other
+    # errors.
     tight = Level(
         level.name, 0.5 * level.promise, max(0.01 * abs(distance) * level.promise, REFERENCE.tolerance), REFERENCE.order
     )
@@ -357,9 +358,9 @@ def ball_scattering(
     wall_ms = (time.perf_counter() - start) * 1e3
     return BallScattering(
         float(theta_minus),
-        frozen(phis),
-        frozen(theta_plus),
-        frozen(errors),
+        as_read_only(phis),
+        as_read_only(theta_plus),
+        as_read_only(errors),
         level.name,
         level.status(float(errors.max())),
         Cost(orbits.cost.steps, wall_ms),

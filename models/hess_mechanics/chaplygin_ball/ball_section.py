@@ -29,7 +29,7 @@ _SAMPLES = 129
 
 
 def nearest_possible_psi(band: tuple[float, float], psi: float) -> float:
-    """Return the possible ψ nearest to a given one.
+    """Return the possible ψ nearest to a given ψ.
 
     Parameters
     ----------

@@ -168,7 +168,7 @@ class Strip:
         for i in range(count):
             angle, turn = 2.0 * math.pi * _GOLDEN * (i + 0.5), 2.0 * math.pi * math.sqrt(2.0) * i
             along = np.array([math.cos(angle), math.sin(angle), 0.0])
-            # From γ ∥ ω, on σ1, to γ ⊥ ω, on σ2.
+            # γ varies from γ ∥ ω, on σ1, to γ ⊥ ω, on σ2.
             sine = math.sqrt((i + 0.5) / count)
             across = math.cos(turn) * np.array([-along[1], along[0], 0.0]) + math.sin(turn) * np.array([0.0, 0.0, 1.0])
             gamma = math.sqrt(1.0 - sine * sine) * along + sine * across

@@ -148,7 +148,7 @@ def inverse_times(F: Sequence[Any], gamma: Sequence[Any] | Array, I11: Any, I22:
     g1, g2, g3 = gamma
     square = constant(g1**2 + g2**2 + g3**2)
     J1, J2 = I11 + D * square, I22 + D * square
-    # det Î/(J1 J2) term by term: det Î itself may exceed the range of double precision.
+    # Compute det Î/(J1 J2) term by term, because det Î itself may overflow.
     u1, u2, v1, v2 = I11 / J1, I22 / J2, D / J1, D / J2
     d = u1 * u2 + u1 * v2 * g1**2 + u2 * v1 * g2**2 + (u1 * v2 + u2 * v1 + v1 * v2 * square) * g3**2
     f1, f2 = F[0] / J1, F[1] / J2

@@ -176,7 +176,7 @@ def period(body: BallBody, start: Sequence[float], accuracy: Accuracy = "precise
     least = min(body.I11, body.I22)
     nu = float(SYSTEM.frequency(given, p)) or 1.0
     end = _TURNS * math.sqrt(moment / least) / nu
-    # The promise of a section is that of its states; here it holds for the time in units 1/ν, too.
+    # The promise of a section is that of its states; here it also covers the time in units 1/ν.
     for each in (level, *(one for one in LEVELS.values() if one.promise < level.promise)):
         crossings = section(body, given, _EITHER_WAY, end, each, crossings=2)
         error = 4.0 * crossings.time_error

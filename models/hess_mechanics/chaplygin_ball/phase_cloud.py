@@ -37,7 +37,7 @@ from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.measured import SAFETY, perturb
 from hess_mechanics.numerics.parallel import THREADS
 from hess_mechanics.numerics.patience import check_limit
-from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen, unit_of
+from hess_mechanics.numerics.results import Array, Cost, as_read_only, facts_of, unit_of
 from hess_mechanics.parameters import plain
 from hess_mechanics.rigid_body.inertia import require_finite
 
@@ -103,12 +103,12 @@ class Cloud(Result):
         """Angular velocity (ω1, ω2), shape (n, m, 2), in rad/T."""
         J, (n1, n2) = _direction(self.body)
         across = self.signs[:, None] * np.exp(self.log_s) / J
-        return frozen(np.stack([n2 * self.along + n1 * across, n2 * across - n1 * self.along], axis=-1))
+        return as_read_only(np.stack([n2 * self.along + n1 * across, n2 * across - n1 * self.along], axis=-1))
 
     @cached_property
     def divergence(self) -> Array:
         """Divergence div v at every point, shape (n, m), in 1/T."""
-        return frozen(divergence(self.body, self.omega, self.gamma))
+        return as_read_only(divergence(self.body, self.omega, self.gamma))
 
     def labels(self) -> Labels:
         """Return ω, γ and ln|s| of each point over t, with names, units and coordinates.
@@ -367,10 +367,12 @@ def cloud_of(body: BallBody, states: Array, times: Array, accuracy: Accuracy) ->
         raise InvalidParameter("1/|I13ω1 + I23ω2| is an invariant density only without a field: set b1 = b2 = b3 = 0.")
     J, (n1, n2) = _direction(body)
     t = as_times(times)
-    nu = math.sqrt(_twice_energy(body, states) / min(body.I11, body.I22)) or 1.0  # a bound on every |ω|
+    nu = math.sqrt(_twice_energy(body, states) / min(body.I11, body.I22)) or 1.0  # An upper bound on |ω| of all points.
     first = np.column_stack([states[:, :2] @ [[n2, n1], [-n1, n2]] / nu, states[:, 2:]])
     if not np.all(first[:, 1]):
-        raise InvalidParameter("A point of the cloud lies on I13ω1 + I23ω2 = 0, where 1/|I13ω1 + I23ω2| is infinite.")
+        raise InvalidParameter(
+            "A point of the cloud lies on I13ω1 + I23ω2 = 0, where 1/|I13ω1 + I23ω2| is infinite: choose another point."
+        )
     max_steps = max(_LEAST_STEPS, _MOST_STEPS // len(first))
     p = np.array([body.I11, body.I22, J, n1, n2, body.D])
     closest = np.argsort(np.abs(first[:, 1]))[: max(_FEWEST_CLOSE, len(first) // _CLOSE)]
@@ -390,11 +392,11 @@ def cloud_of(body: BallBody, states: Array, times: Array, accuracy: Accuracy) ->
         total += steps
     return Cloud(
         body,
-        frozen(t),
-        frozen(out[..., 0] * nu),
-        frozen(out[..., 1] + math.log(J * nu)),
-        frozen(np.sign(first[:, 1])),
-        frozen(out[..., 2:]),
+        as_read_only(t),
+        as_read_only(out[..., 0] * nu),
+        as_read_only(out[..., 1] + math.log(J * nu)),
+        as_read_only(np.sign(first[:, 1])),
+        as_read_only(out[..., 2:]),
         level.name,
         level.status(error),
         error,
@@ -409,7 +411,7 @@ def _shares(log_s: Array, edges: Array) -> Array:
     width = float(edges[1] - edges[0])
     bins = np.floor((log_s.ravel() - edges[0]) / width).astype(int)
     counts = np.bincount(bins[(bins >= 0) & (bins < edges.size - 1)], minlength=edges.size - 1)
-    return frozen(counts / (log_s.size * width))
+    return as_read_only(counts / (log_s.size * width))
 
 
 def histogram(cloud: Cloud, frame: int, edges: Array) -> Array:

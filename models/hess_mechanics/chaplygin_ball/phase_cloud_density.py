@@ -18,7 +18,7 @@ from hess_mechanics.chaplygin_ball.phase_cloud import Cloud, cloud_of, frame_tim
 from hess_mechanics.dynamics.ensemble import complete, ensemble
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.labelled import Labels, Result
-from hess_mechanics.numerics.results import Array, Ensemble, frozen
+from hess_mechanics.numerics.results import Array, Ensemble, as_read_only
 from hess_mechanics.suslov.additional_integral import integral_of
 from hess_mechanics.suslov.equations import SuslovBody
 
@@ -112,7 +112,7 @@ class Density(Result):
 
 
 def sides(cloud: Cloud) -> tuple[int, int, int] | None:
-    """Return the numbers of points on both sides of F2 = 0, and of those that change sides.
+    """Return the numbers of points on both sides of F2 = 0, and of points that change sides.
 
     Points whose F2 is 0 to round-off are not counted.
 
@@ -192,9 +192,11 @@ def history(cloud: Cloud) -> CloudHistory:
     """
 
     def of(values: Array) -> Array:
-        return frozen(np.stack([values.mean(axis=0), values.min(axis=0), values.max(axis=0)]))
+        return as_read_only(np.stack([values.mean(axis=0), values.min(axis=0), values.max(axis=0)]))
 
-    return CloudHistory(frozen(cloud.times), of(cloud.divergence), of(cloud.log_growth), frozen(cloud.volume))
+    return CloudHistory(
+        as_read_only(cloud.times), of(cloud.divergence), of(cloud.log_growth), as_read_only(cloud.volume)
+    )
 
 
 def density(cloud: Cloud) -> Density:
@@ -222,12 +224,12 @@ def density(cloud: Cloud) -> Density:
     low = max(SMALLEST, float(cloud.log_s.min()))
     first = math.floor(low / BIN)
     edges = BIN * np.arange(first, max(first + 1, math.floor(float(cloud.log_s.max()) / BIN) + 1) + 1, dtype=float)
-    # The share of time that each point spends per unit of ln|s| in the end, where ln|s| decreases at a constant rate.
+    # In the end ln|s| decreases at a constant rate, which gives the share of time per unit of ln|s|.
     last = cloud.times.size - 1
     late = 3 * cloud.times.size // 4
     change = float(np.median(np.abs(cloud.log_s[:, -1] - cloud.log_s[:, late])))
     return Density(
-        frozen(0.5 * (edges[1:] + edges[:-1])),
+        as_read_only(0.5 * (edges[1:] + edges[:-1])),
         histogram(cloud, 0, edges),
         histogram(cloud, -1, edges),
         occupation(cloud, edges),

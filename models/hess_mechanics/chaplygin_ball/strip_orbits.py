@@ -11,9 +11,9 @@ from hess_mechanics.chaplygin_ball.energy_surface import Strip, line_of_rest
 from hess_mechanics.chaplygin_ball.equations import BallBody
 from hess_mechanics.dynamics.ensemble import complete, ensemble
 from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.dynamics.shadowing import away_from
+from hess_mechanics.dynamics.shadowing import distances_to_curve
 from hess_mechanics.numerics.accuracy import DRAFT, Accuracy
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, as_read_only
 
 __all__ = ["StripOrbit", "largest_distance", "strip_orbits"]
 
@@ -60,7 +60,7 @@ def strip_orbits(body: BallBody, count: int, accuracy: Accuracy = DRAFT) -> tupl
         track = np.concatenate([before[:0:-1], after])
         length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(track, axis=0), axis=1))])
         indices = np.unique(np.floor(length / tick), return_index=True)[1]
-        orbits.append((frozen(track[indices]), int(np.searchsorted(indices, len(before) - 1))))
+        orbits.append((as_read_only(track[indices]), int(np.searchsorted(indices, len(before) - 1))))
     return tuple(orbits)
 
 
@@ -79,7 +79,7 @@ def largest_distance(orbits: Sequence[StripOrbit], exact: Sequence[StripOrbit]) 
     float
         The distance, in rad/T.
     """
-    return float(max(away_from(one, other).max() for (one, _), (other, _) in zip(orbits, exact, strict=True)))
+    return float(max(distances_to_curve(one, other).max() for (one, _), (other, _) in zip(orbits, exact, strict=True)))
 
 
 def _times(body: BallBody, speed: float) -> Array:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.numerics.patience import check_limit
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, as_read_only
 
 __all__ = ["CROSSINGS", "LOST", "NOWHERE", "Arrivals", "Orbits", "RecurrentSets", "arrivals", "recurrent_sets"]
 
@@ -94,7 +94,7 @@ class RecurrentSets:
         """
         numbers = np.append(np.where(which, np.cumsum(which) - 1, LOST), LOST).astype(np.int16)
         states = tuple(state for state, flag in zip(self.states, which, strict=True) if flag)
-        return RecurrentSets(frozen(numbers[np.where(self.table < 0, -1, self.table)]), states)
+        return RecurrentSets(as_read_only(numbers[np.where(self.table < 0, -1, self.table)]), states)
 
     def of(self, section: PoincareSection, states: Array) -> NDArray[np.int16]:
         """Return the number of the set at each state.
@@ -143,13 +143,13 @@ def _joined(cells: Sequence[tuple[NDArray[np.int64], NDArray[np.int64]]]) -> NDA
     visited = np.zeros(_CELLS[::-1], bool)
     for one in cells:
         visited[one] = True
-    # Imported where they are used: together they take a fifth of a second, which few states need.
+    # Imported here because the imports take 0.2 s together, and few states need them.
     from scipy import ndimage
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
     patches, count = ndimage.label(visited, np.ones((3, 3)))
-    # Orbits and patches of cells are the nodes of a graph, joined by a visit.
+    # Nodes of the graph are orbits and patches of cells; an edge is a visit.
     orbit = np.repeat(np.arange(len(cells)), [len(row) for row, _ in cells])
     patch = np.concatenate([patches[one] for one in cells]) + len(cells) - 1
     nodes = len(cells) + count
@@ -182,16 +182,16 @@ def recurrent_sets(orbits: Orbits) -> RecurrentSets:
     complete = [orbit for orbit in orbits.follow(states[there], CROSSINGS) if len(orbit) == CROSSINGS]
     table = np.full(_CELLS[::-1], LOST, np.int16)
     if not complete:
-        return RecurrentSets(frozen(table), ())
+        return RecurrentSets(as_read_only(table), ())
     of_each = _joined([_cells(section, orbit[-CROSSINGS // 4 :]) for orbit in complete])
     sizes = np.bincount(of_each)
     largest = [one for one in np.argsort(-sizes, kind="stable")[:_MOST] if sizes[one] >= _FEWEST]
     ends = [complete[int(np.argmax(of_each == one))][-1] for one in largest]
     long = [one[_TRANSIENT:] for one in orbits.follow(np.array(ends), _TRANSIENT + _LONG) if len(one) > _TRANSIENT]
     if not long:
-        return RecurrentSets(frozen(table), ())
+        return RecurrentSets(as_read_only(table), ())
     cells = [_cells(section, one) for one in long]
-    # In the order of their first orbits, the largest set first.
+    # Number the sets in the order of their first orbits, which begins with the largest set.
     _, firsts, numbers = np.unique(_joined(cells), return_index=True, return_inverse=True)
     order = np.argsort(np.argsort(firsts))
     for one, number in zip(cells, order[numbers], strict=True):
@@ -202,7 +202,7 @@ def recurrent_sets(orbits: Orbits) -> RecurrentSets:
         table, 3, mode=["wrap" if np.isfinite(turn) else "nearest" for turn in section.turns[::-1]]
     )
     states_on = tuple(tuple(map(float, long[i][-1])) for i in sorted(firsts))
-    return RecurrentSets(frozen(np.where(table == LOST, around, table)), states_on)
+    return RecurrentSets(as_read_only(np.where(table == LOST, around, table)), states_on)
 
 
 def arrivals(orbits: Orbits, sets: RecurrentSets, x: Array, y: Array) -> Arrivals:
@@ -251,4 +251,4 @@ def arrivals(orbits: Orbits, sets: RecurrentSets, x: Array, y: Array) -> Arrival
         done += piece
         states = together.reshape(-1, piece, together.shape[1])[~has, -1]
         left, before = left[~has], seen[~has, -_ROW + 1 :]
-    return Arrivals(frozen(number), frozen(crossings))
+    return Arrivals(as_read_only(number), as_read_only(crossings))

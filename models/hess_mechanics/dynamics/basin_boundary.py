@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from hess_mechanics.dynamics.attraction import Arrivals, Orbits, RecurrentSets, arrivals
 from hess_mechanics.dynamics.cells import Window, centres
-from hess_mechanics.numerics.results import Mask, frozen
+from hess_mechanics.numerics.results import Mask, as_read_only
 
 __all__ = ["ambiguity", "arrivals_of_cells", "cells_to_compute", "coarsest_cells", "merge"]
 
 
 def _on_boundary(cells: NDArray[Any]) -> Mask:
-    """Return a mask (n, m) of the cells with another number than one of their eight neighbours."""
+    """Return a mask (n, m) of the cells whose number differs from that of a neighbour, of eight."""
     from scipy import ndimage
 
     return np.asarray(ndimage.maximum_filter(cells, 3) != ndimage.minimum_filter(cells, 3))
@@ -107,7 +107,7 @@ def merge(before: Arrivals | None, mask: Mask, parts: Sequence[tuple[slice, Arri
     for part, one in parts:
         at = rows[part], columns[part]
         number[at], crossings[at] = one.number, one.crossings
-    return Arrivals(frozen(number), frozen(crossings))
+    return Arrivals(as_read_only(number), as_read_only(crossings))
 
 
 def coarsest_cells(cells: NDArray[Any]) -> NDArray[Any]:

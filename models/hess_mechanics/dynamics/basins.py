@@ -19,7 +19,7 @@ from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.return_map import PoincareSection, section_crossings
 from hess_mechanics.dynamics.system import Body
 from hess_mechanics.numerics.accuracy import DRAFT, Accuracy
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, as_read_only
 
 __all__ = [
     "Attractors",
@@ -82,7 +82,7 @@ def mean_divergence(body: Body, start: Sequence[float], duration: float) -> Mean
     times = np.linspace(0.0, duration, _SAMPLES + 1)
     rates = body.system.divergence(solve(body, start, times, DRAFT).states, body.parameters)
     steps = 0.5 * (rates[1:] + rates[:-1]) * np.diff(times)
-    return MeanDivergence(frozen(times[1:]), frozen(np.cumsum(steps) / times[1:]))
+    return MeanDivergence(as_read_only(times[1:]), as_read_only(np.cumsum(steps) / times[1:]))
 
 
 @dataclass(frozen=True)
@@ -209,7 +209,7 @@ class Attractors:
 
     @property
     def largest(self) -> Contraction | None:
-        """The largest mean divergence about a recurrent set; None without one."""
+        """The largest mean divergence about a recurrent set; None without a recurrent set."""
         return max(self.contractions, key=lambda one: one.mean, default=None)
 
 

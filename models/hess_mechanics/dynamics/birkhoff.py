@@ -188,7 +188,7 @@ def rotation_number(points: Array, centre: tuple[float, float] | None = None) ->
     turns = middle + np.asarray(_within_half(turns - middle))
     half = turns.size // 2
     means = [_weighted_mean(some) for some in (turns, turns[:half], turns[half:])]
-    # Turns spread over the whole circle are ambiguous by ±1, so nothing is known.
+    # Turns that spread over the whole circle are ambiguous by ±1, so their mean is undefined.
     error = 0.5 if np.ptp(turns) > _ALL_ROUND else float(np.ptp(means))
     return float(_within_half(means[0])), error
 
@@ -261,7 +261,7 @@ def ensemble_mean(values: Array) -> tuple[float, float]:
         orbits, and the remainder that all orbits share, which no scatter shows: the difference of the halves.
     """
     count = len(values)
-    from scipy.special import stdtrit  # imported here because it takes 0.1 s
+    from scipy.special import stdtrit  # Imported here because the import takes 0.1 s.
 
     widened = float(stdtrit(count - 1, _ONE_SIDED)) / ERRORS
     whole, away = values[:, 0], values[:, 1:] - values[:, :1]

@@ -34,7 +34,7 @@ from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.measured import SAFETY
 from hess_mechanics.numerics.patience import check_limit
-from hess_mechanics.numerics.results import Array, Complex, frozen
+from hess_mechanics.numerics.results import Array, Complex, as_read_only
 
 __all__ = ["Bifurcation", "Branch", "MapFamily", "branch_from", "extension"]
 
@@ -75,7 +75,7 @@ class Bifurcation:
         Points of the orbit.
     multipliers : ndarray of complex, shape (d,)
         Multipliers of the orbit.
-    after : int
+    index : int
         Index of the point of the branch before the bifurcation.
     """
 
@@ -84,7 +84,7 @@ class Bifurcation:
     error: float
     points: Array
     multipliers: Complex
-    after: int
+    index: int
 
 
 @dataclass(frozen=True)
@@ -202,10 +202,10 @@ class _Point:
 class _Track:
     """The constants of a branch; z holds the points (m, d) divided by √m, and λ divided by the width of its range.
 
-    at : the family of maps, with a cache of the last ones.
+    map_at : the family of maps, with a cache of the last ones.
     """
 
-    at: MapFamily
+    map_at: MapFamily
     parameter: str
     names: tuple[str, ...]
     level: str
@@ -230,11 +230,11 @@ class _Track:
     def point(self, z: Array, iterations: int = 0, better: bool = False) -> _Point:
         """Return F and its derivatives at z.  Raises as the family."""
         points, value = self.split(z)
-        map_ = self.at(value).tighter() if better else self.at(value)
+        map_ = self.map_at(value).tighter() if better else self.map_at(value)
         shot = shoot(map_, points)
         # Only Newton's steps and the tangent use this derivative; its error does not move the orbit.
         h = 1e-5 * self.width
-        sides = [self.at(value + sign * h).image(points) for sign in (1.0, -1.0)]
+        sides = [self.map_at(value + sign * h).image(points) for sign in (1.0, -1.0)]
         by_value = difference(map_.turns, *sides) / (2.0 * h)
         # The equations are divided by √m, like the points.
         return _Point(z, shot, by_value.ravel() * self.width / self.root, iterations)
@@ -254,13 +254,13 @@ class _Track:
             except (ModelError, np.linalg.LinAlgError) as error:
                 raise NotConverged(str(error)) from error
             length = float(np.abs(step).max())
-            promise = self.at(self.split(z)[1]).promise
+            promise = self.map_at(self.split(z)[1]).promise
             if length <= 1e-14 or (length <= promise and length > 0.25 * before):
                 return point
             if length > 4.0 * before and length > promise:
                 break
             z, before = z + step, length
-        raise NotConverged("Newton's method does not return to the branch.")
+        raise NotConverged("Newton's method does not converge to a point of the branch.")
 
     def beside(self, guess: Array, across: Array, t: Array) -> tuple[_Point, Array]:
         """Return the `corrected` point and its tangent, which must be close to t.  Raises `NotConverged`."""
@@ -395,7 +395,7 @@ def extension(
     InvalidParameter
         If the branch cannot be continued.
     NotConverged
-        If Newton's method does not return to the branch.
+        If Newton's method does not converge to a point of the branch.
     WorkLimit
         If a map needs too many steps.
     """
@@ -450,15 +450,15 @@ def _followed(
     return Branch(
         track.parameter,
         track.names,
-        frozen(np.array(values)),
-        frozen(np.array(orbits)),
-        frozen(multipliers),
+        as_read_only(np.array(values)),
+        as_read_only(np.array(orbits)),
+        as_read_only(multipliers),
         kinds,
-        frozen(np.array(errors)),
+        as_read_only(np.array(errors)),
         tuple(_told_apart(bifurcations)),
         ended or f"After {points} points.",
         track.level,
-        heading=None if ended else (frozen(t.copy()), step),
+        heading=None if ended else (as_read_only(t.copy()), step),
     )
 
 
@@ -527,14 +527,14 @@ def _located(track: _Track, kind: str, last: _Point, t: Array, ahead: float, aft
         # At a crossing of branches the equations are singular; the zero is bracketed by regular points.
         off, point = _closed_in(track, at, (low, high), point, t)
     points, value = track.split(point.z)
-    if kind == "branch point" and _breaks_a_symmetry(track.at(value), points, point):
+    if kind == "branch point" and _breaks_a_symmetry(track.map_at(value), points, point):
         kind = "pitchfork"
     return Bifurcation(
         kind,
         value,
         off * track.width + 4e-16 * max(1.0, abs(value)),
-        frozen(points.copy()),
-        frozen(multipliers_of(point.shot.derivatives)[0]),
+        as_read_only(points.copy()),
+        as_read_only(multipliers_of(point.shot.derivatives)[0]),
         after,
     )
 
@@ -564,7 +564,7 @@ def _closed_in(
             point = track.point(before.z + (after.z - before.z) * f_before / (f_before - f_after))
             rate = 1.25 * max(abs(float(one.tangent(t)[-1])) for one in (before, after))
     # The error of the map itself is only known by its promise.
-    return rate * (high - low) + track.at(track.split(point.z)[1]).promise, point
+    return rate * (high - low) + track.map_at(track.split(point.z)[1]).promise, point
 
 
 def _first_of(
@@ -578,7 +578,7 @@ def _first_of(
 
 
 def _breaks_a_symmetry(map_: Map, points: Array, point: _Point) -> bool:
-    """Return True if the orbit has a symmetry that those of the other branch do not have."""
+    """Return True if the orbit has a symmetry that the orbits of the other branch lack."""
     own = set(map_.symmetries_of(points, 1e-7))
     if not own:
         return False

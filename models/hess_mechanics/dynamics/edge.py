@@ -54,7 +54,7 @@ def saddle_between(map_: Map, one: Array, other: Array, number_of: Callable[[Arr
     orbits = [images_of(map_, end, _CROSSINGS) for end in (a, b)]
     both = min(map(len, orbits))
     away = np.abs(difference(map_.turns, orbits[0][:both], orbits[1][:both])).max(axis=1)
-    # The two orbits approach the saddle until they separate: start Newton's method from their last common points.
+    # The two orbits approach the saddle before they separate: start Newton's method at their last common points.
     last = int(np.argmax(away > 1e-3)) if np.any(away > 1e-3) else both
     for first in range(max(0, last - _MOST - 1), -1, -_MOST):
         try:

@@ -16,7 +16,7 @@ from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.measured import SAFETY, UNSURE, safety_of
 from hess_mechanics.numerics.parallel import THREADS, run_in_threads
-from hess_mechanics.numerics.results import Array, Cost, Ensemble, frozen
+from hess_mechanics.numerics.results import Array, Cost, Ensemble, as_read_only
 
 __all__ = ["MAX_NUMBERS", "complete", "ensemble", "integrate_many"]
 
@@ -144,7 +144,7 @@ def ensemble(
     if count == 0:
         raise InvalidParameter("There are no initial states: give at least one.")
     if count * t.size * dimension > MAX_NUMBERS:
-        raise WorkLimit(f"{count} orbits at {t.size} times are too many: choose fewer of one or the other.")
+        raise WorkLimit(f"{count} orbits at {t.size} times are too many: choose fewer orbits or fewer times.")
     scaled_times = problem.times(t)
 
     longest, most_steps = as_max_step(max_step, problem), as_max_steps(max_steps)
@@ -161,10 +161,10 @@ def ensemble(
     errors, scaled_errors = np.full(count, np.inf), np.zeros(count)
     todo = np.flatnonzero(done)
     before, current = out[todo], level
-    # As in `measured`, for the orbits that still miss the promise.
+    # Repeat the orbits that still miss the promise, as `measured` does.
     while todo.size:
         tighter = current.tighter()
-        finer, more, _ = run(problems[tighter.aside], todo, tighter)
+        finer, more, _ = run(problems[tighter.is_perturbed], todo, tighter)
         total += int(np.maximum(more, 0).sum())
         difference = np.abs(before - finer)
         difference[more < 0] = np.inf
@@ -172,11 +172,11 @@ def ensemble(
         safety = safety_of(off, scaled_errors[todo])
         scaled_errors[todo] = safety * off + 2e-16
         errors[todo] = safety * (difference * problem.scale).max(axis=(1, 2)) + 2e-16 * max(1.0, problem.nu)
-        if not tighter.aside:
+        if not tighter.is_perturbed:
             out[todo] = finer
         if current.is_floor:
             todo = todo[scaled_errors[todo] > UNSURE]
-            third, more, _ = run(problems[current.aside], todo, current.variant())
+            third, more, _ = run(problems[current.is_perturbed], todo, current.variant())
             total += int(np.maximum(more, 0).sum())
             difference = np.abs(out[todo] - third)
             difference[more < 0] = np.inf
@@ -199,17 +199,17 @@ def ensemble(
     return Ensemble(
         body.system.name,
         level.name,
-        frozen(t),
-        frozen(out),
+        as_read_only(t),
+        as_read_only(out),
         level.status(float(scaled_errors.max())) if done.all() else Status.INCOMPLETE,
         float(errors[done].max(initial=0.0)),
         drift,
         Cost(total, wall_ms),
         body.system.variables,
-        frozen(errors),
+        as_read_only(errors),
         tuple(statuses),
-        frozen(ends),
-        frozen(last * problem.scale),
+        as_read_only(ends),
+        as_read_only(last * problem.scale),
         tuple(reasons),
         angles=body.system.angles,
     )

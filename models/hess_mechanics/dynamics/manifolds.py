@@ -25,7 +25,7 @@ from hess_mechanics.numerics.accuracy import Status
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.measured import SAFETY
 from hess_mechanics.numerics.patience import check_limit
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, as_read_only
 
 __all__ = ["MAX_RETURNS", "Intersection", "Manifold", "crossings_of", "heights_at", "manifold", "split"]
 
@@ -74,7 +74,7 @@ class Manifold(Result):
         Reason why the branch ends.
     level : str
         Name of the accuracy level.
-    at : callable
+    point_at : callable
         Function from τ to the point (2,), with angles in any turn.  Raises as the map.
     """
 
@@ -90,7 +90,7 @@ class Manifold(Result):
     error_estimate: float
     end_reason: str
     level: str
-    at: Callable[[float], Array]
+    point_at: Callable[[float], Array]
 
     @property
     def length(self) -> float:
@@ -143,16 +143,16 @@ class _Curve:
     first_error: float = 0.0
     """Error at the end of the first piece."""
 
-    def at(self, tau: float) -> Array:
+    def point_at(self, tau: float) -> Array:
         count = max(0, math.floor(tau))
-        return self.map_.after(self._near(self.multiplier ** (tau - count)), count * self.returns)
+        return self.map_.iterate(self._near(self.multiplier ** (tau - count)), count * self.returns)
 
     def _near(self, sigma: float) -> Array:
         return np.asarray(self.saddle + sigma * self.away + sigma * sigma * self.bend)
 
     def third_order(self) -> float:
         """Return the distance of F(σ = 1/λ) from the point σ = 1 of the first piece: its third order, and round-off."""
-        there = self.map_.after(self._near(1.0 / self.multiplier), self.returns)
+        there = self.map_.iterate(self._near(1.0 / self.multiplier), self.returns)
         return float(np.linalg.norm(difference(self.map_.turns, there, self._near(1.0))))
 
 
@@ -170,7 +170,7 @@ def _begun(map_: Map, orbit: PeriodicOrbit, side: int, index: int) -> _Curve:
     big = int(np.argmax(np.abs(values)))
     if values.imag.any() or not abs(values[big]) > 1.0 + 1e-6 or abs(values[1 - big]) >= 1.0:
         raise InvalidParameter(
-            f"This {orbit.kind} has no such manifolds: choose a saddle, with one multiplier inside and one outside of "
+            f"This {orbit.kind} has no such manifolds: choose a saddle, with one multiplier inside and one outside "
             "the unit circle."
         )
     value, returns = float(values[big].real), orbit.period
@@ -181,7 +181,7 @@ def _begun(map_: Map, orbit: PeriodicOrbit, side: int, index: int) -> _Curve:
     size, error = _CURVED, math.inf
     q: Array = np.zeros(2)
     try:
-        both = [difference(map_.turns, map_.after(saddle + sign * size * v, returns), saddle) for sign in (1.0, -1.0)]
+        both = [difference(map_.turns, map_.iterate(saddle + sign * size * v, returns), saddle) for sign in (1.0, -1.0)]
         q = np.asarray(np.linalg.solve(value * value * np.eye(2) - M, 0.5 * (both[0] + both[1])) / size**2, float)
     except ModelError:
         # Close to the edge of the section the manifold starts as a straight line.
@@ -191,7 +191,7 @@ def _begun(map_: Map, orbit: PeriodicOrbit, side: int, index: int) -> _Curve:
     for size in _SIZES:
         curve = replace(curve, away=side * size * v, bend=size * size * q)
         try:
-            # The smallest coefficient found so far: closer to the saddle, round-off exceeds the third order.
+            # Use the smallest coefficient: closer to the saddle, round-off exceeds the third order.
             third = min(third, curve.third_order() / size**3)
         except ModelError:
             continue
@@ -264,7 +264,7 @@ def manifold(
     """
     if not (math.isfinite(length) and length > 0.0 and sagitta > 0.0 and longest > 0.0):
         raise InvalidParameter(
-            f"length = {length}, sagitta = {sagitta}, longest = {longest}: choose positive finite numbers."
+            f"length = {length}, sagitta = {sagitta}, longest = {longest}: choose positive numbers and a finite length."
         )
     if side not in (-1, 1):
         raise InvalidParameter(f"side = {side}: choose 1 (along the direction of the saddle) or −1 (against it).")
@@ -280,14 +280,14 @@ def manifold(
         stable,
         side,
         curve.multiplier,
-        frozen(points),
-        frozen(parameters),
-        frozen(lengths),
+        as_read_only(points),
+        as_read_only(parameters),
+        as_read_only(lengths),
         sagitta,
         _error(curve, points, parameters),
         ended,
         map_.level,
-        curve.at,
+        curve.point_at,
     )
 
 
@@ -296,9 +296,9 @@ def _followed(
 ) -> tuple[Array, Array, str]:
     """Return points and parameters with adaptive density, from the saddle to the length, and why the curve ends."""
     turns = curve.map_.turns
-    points, parameters = [curve.saddle.copy(), curve.at(0.0)], [-math.inf, 0.0]
+    points, parameters = [curve.saddle.copy(), curve.point_at(0.0)], [-math.inf, 0.0]
     total = float(np.linalg.norm(curve.away))
-    # Right ends of pieces that are not yet done, the nearest last.
+    # Right ends of the unfinished pieces, with the nearest one last.
     waiting: list[tuple[float, Array]] = []
     ahead, before, spent = 0.0, 0.0, 0
     ended = "At its length."
@@ -320,9 +320,9 @@ def _followed(
                         break
                     before = total
                 ahead += 1.0 / _FIRST
-                waiting.append((ahead, here + difference(turns, curve.at(ahead), here)))
+                waiting.append((ahead, here + difference(turns, curve.point_at(ahead), here)))
             right, there = waiting[-1]
-            middle = curve.at(0.5 * (tau + right))
+            middle = curve.point_at(0.5 * (tau + right))
             spent += max(1, math.floor(right)) * curve.returns
         except ModelError as error:
             ended = f"At the length {total:.6g}, for what follows: {error}"
@@ -333,7 +333,7 @@ def _followed(
         size = float(np.linalg.norm(chord))
         off = float(np.linalg.norm(middle - 0.5 * (here + there)))
         across = abs(_cross(chord, middle - here)) / max(size, 1e-300)
-        # A middle that is far from the middle of the chord, though on its line, may hide a fold between.
+        # A middle point far from the middle of the chord, though on its line, may hide a fold.
         if (across > sagitta or size > longest or off > 0.35 * size) and right - tau > 1e-12 * max(1.0, tau):
             waiting.append((0.5 * (tau + right), middle))
             continue
@@ -346,7 +346,7 @@ def _followed(
             ended = f"At the length {total:.6g} the map jumps: an orbit touches the plane of the section."
             break
         waiting.pop()
-        # Keep the middle, which is already computed: it reduces the sagitta by a factor of four.
+        # Keep the middle point, which is already computed: it reduces the sagitta by a factor of four.
         for parameter, point in ((0.5 * (tau + right), middle), (right, there)):
             total += float(np.linalg.norm(point - points[-1]))
             points.append(point)
@@ -367,7 +367,7 @@ def _error(curve: _Curve, points: Array, parameters: Array) -> float:
     off, last = -math.inf, len(points) - 1
     for i in np.unique(np.linspace(1, max(1, last - 1), _CHECKED).astype(int)):
         try:
-            there = better.at(float(parameters[i]))
+            there = better.point_at(float(parameters[i]))
         except ModelError:
             continue
         along = points[min(i + 1, last)] - points[max(i - 1, 0)]
@@ -378,7 +378,7 @@ def _error(curve: _Curve, points: Array, parameters: Array) -> float:
     return SAFETY * off + curve.first_error + 4e-16 if off >= 0.0 else math.inf
 
 
-# ---- where two of them cross ------------------------------------------------------------------------------------
+# ---- intersections ---------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -395,7 +395,7 @@ class Intersection:
         Angle between the manifolds, in radians, 0 to π/2.
     error : float
         Estimated error of the point, ≥ 0.
-    certain : bool
+    is_certain : bool
         True if the manifolds change sides between one chord before and one chord after the crossing, by more than their
         errors; False where they run together.
     """
@@ -404,7 +404,7 @@ class Intersection:
     parameters: tuple[float, float]
     angle: float
     error: float
-    certain: bool
+    is_certain: bool
 
 
 def crossings_of(one: Manifold, other: Manifold, most: int = 100) -> list[Intersection]:
@@ -460,18 +460,18 @@ def _refined(one: Manifold, other: Manifold, pair: tuple[int, int]) -> Intersect
     try:
         for iteration in range(20):
             check_limit()
-            # After two steps slopes are right to a percent, which costs fewer points than to compute them again.
+            # After two steps the slopes are accurate to a percent, and reusing them saves points.
             for k, (curve, sign) in enumerate(((one, 1.0), (other, -1.0)) if iteration < 2 else ()):
-                both = [curve.at(tau[k] + side * h[k]) for side in (1.0, -1.0)]
+                both = [curve.point_at(tau[k] + side * h[k]) for side in (1.0, -1.0)]
                 slopes[:, k] = sign * difference(one.turns, *both) / (2.0 * h[k])
-            left = difference(one.turns, one.at(tau[0]), other.at(tau[1]))
+            left = difference(one.turns, one.point_at(tau[0]), other.point_at(tau[1]))
             step = np.asarray(-np.linalg.solve(slopes, left), float)
             room = np.array([float(np.ptp(end)) for end in ends])
             tau = np.asarray(tau + np.clip(step, -room, room), float)
             if np.abs(slopes * step).max() < 1e-13:
                 break
-        point = one.at(tau[0])
-        left = difference(one.turns, point, other.at(tau[1]))
+        point = one.point_at(tau[0])
+        left = difference(one.turns, point, other.point_at(tau[1]))
     except (ModelError, np.linalg.LinAlgError):
         return None
     if any(not end[0] - np.ptp(end) <= value <= end[1] + np.ptp(end) for value, end in zip(tau, ends, strict=True)):
@@ -480,7 +480,7 @@ def _refined(one: Manifold, other: Manifold, pair: tuple[int, int]) -> Intersect
     angle = math.atan2(abs(float(_cross(u, v))), abs(float(u @ v)))
     off = (one.error_estimate + other.error_estimate + float(np.abs(left).max())) / max(math.sin(angle), 1e-6)
     return Intersection(
-        frozen(point),
+        as_read_only(point),
         (float(tau[0]), float(tau[1])),
         angle,
         off,
@@ -495,9 +495,9 @@ def _changes_sides(one: Manifold, other: Manifold, tau: Array, chord: float, alo
     gaps = []
     for side in (-1.0, 1.0):
         try:
-            point, t = one.at(tau[0] + side * chord), float(tau[1])
+            point, t = one.point_at(tau[0] + side * chord), float(tau[1])
             for _ in range(_FEET):
-                away = difference(one.turns, point, other.at(t))
+                away = difference(one.turns, point, other.point_at(t))
                 # An error along the curve changes the distance across it only in second order.
                 if abs(float(away @ u)) <= 1e-3 * float(np.linalg.norm(away)):
                     break
@@ -543,12 +543,12 @@ def heights_at(curve: Manifold, axis: int, value: float) -> Array:
 
 def _height_on(curve: Manifold, axis: int, value: float, i: int) -> float:
     """Return the other coordinate on the segment i."""
-    from scipy.optimize import brentq  # imported here because it takes 0.3 s
+    from scipy.optimize import brentq  # Imported here because the import takes 0.3 s.
 
     reference = curve.points[i]
 
     def away(tau: float) -> Array:
-        return difference(curve.turns, curve.at(tau), reference)
+        return difference(curve.turns, curve.point_at(tau), reference)
 
     tau = brentq(lambda tau: reference[axis] + away(tau)[axis] - value, *curve.parameters[i : i + 2], xtol=1e-14)
     return float((reference + away(tau))[1 - axis])

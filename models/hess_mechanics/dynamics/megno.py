@@ -21,13 +21,13 @@ from hess_mechanics.dynamics.birkhoff import batch_error, volume_sign, window_ra
 from hess_mechanics.dynamics.orbit import as_duration, require_finite_rates
 from hess_mechanics.dynamics.spectrum import no_chaos
 from hess_mechanics.dynamics.system import Body, Problem
-from hess_mechanics.dynamics.variation import LONGEST, one_direction, tangent
+from hess_mechanics.dynamics.variation import LONGEST, generic_direction, tangent
 from hess_mechanics.errors import InvalidParameter, MotionEnds, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Accuracy
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import THREADS, run_in_threads
-from hess_mechanics.numerics.results import Array, Cost, Mask, frozen
+from hess_mechanics.numerics.results import Array, Cost, Mask, as_read_only
 from hess_mechanics.parameters import plain
 
 __all__ = ["CHAOTIC", "REGULAR", "Megno", "longest_duration", "megno"]
@@ -198,11 +198,11 @@ def megno(
             f"MEGNO takes too long for t = {plain(abs(duration), 4)}: choose at most {plain(_LONGEST / problem.nu, 4)}."
         )
     count, size = problem.states.shape
-    # At least one sample per 1/ν, in twelve stretches after the first fifth.
+    # Sample at least once per 1/ν, in twelve stretches after the first fifth.
     samples = 60 * max(4, math.ceil(abs(duration) * problem.nu / 60))
     t = duration * problem.nu * np.arange(1, samples + 1) / samples
     first = samples // 5
-    direction = one_direction(size)
+    direction = generic_direction(size)
     numbers, steps, no_chaos_because = np.empty((6, count)), np.zeros(count, int), [""] * count
     ends, reasons = np.full(count, abs(duration)), [""] * count
 
@@ -219,14 +219,15 @@ def megno(
         along = tangent(problem, start, direction, t, level, LONGEST)
         steps[i] = along.steps
         length = np.concatenate([[0.0], along.lengths[:, 0]])
-        # ∫ s dL = tL − ∫ L ds, with sums for integrals, in units of the sample spacing.
+        # ∫ s dL = tL − ∫ L ds, with sums in place of integrals and the sample spacing as unit of time.
         number = np.arange(1, samples + 1)
         below = np.cumsum(0.5 * (length[1:] + length[:-1]))
         y = 2.0 * (length[1:] - below / number)
         times = np.abs(t[first - 1 :]) / problem.nu
         volume = along.volume[first - 1 :]
         windows = window_rates(volume, times)
-        # The error of the steps, the scatter of stretches, and the remainder on tori, which no scatter shows.
+        # Add the error of the steps, the scatter of stretches, and the remainder on tori, which the scatter does not
+        # show.
         floor = (level.tolerance + 1e-15) * steps[i] / abs(duration)
         scatter = batch_error(volume[:, None], times)[1][0]
         numbers[:, i] = y.mean(), *windows, max(scatter, float(np.abs(windows[1:] - windows[0]).max())) + floor
@@ -237,12 +238,12 @@ def megno(
     run_in_threads(one, count, threads, _SHARE)
     return Megno(
         abs(duration),
-        frozen(numbers[0].copy()),
-        frozen(numbers[1].copy()),
-        frozen(numbers[5].copy()),
-        frozen(numbers[1:5].T.copy()),
+        as_read_only(numbers[0].copy()),
+        as_read_only(numbers[1].copy()),
+        as_read_only(numbers[5].copy()),
+        as_read_only(numbers[1:5].T.copy()),
         tuple(no_chaos_because),
-        frozen(ends),
+        as_read_only(ends),
         tuple(reasons),
         level.name,
         Cost(int(steps.sum()), (time.perf_counter() - begun) * 1e3),

@@ -18,7 +18,7 @@ from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.arguments import as_cells, as_number, as_point
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.parallel import run_in_threads
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, as_read_only
 
 __all__ = ["ENDED", "NOWHERE", "MegnoMap", "corners", "megno_map", "require_plane", "row_of_cells", "time_of"]
 
@@ -153,7 +153,7 @@ def row_of_cells(
         row_values = megno(section, states[there], duration, accuracy, threads=1)
         kinds = np.where(np.array(row_values.reasons, bool), ENDED, row_values.chaotic + 2 * row_values.dissipative)
         out[:, there] = row_values.values, kinds, row_values.ends
-    return frozen(out)
+    return as_read_only(out)
 
 
 def megno_map(
@@ -204,11 +204,11 @@ def megno_map(
     across, up = section.names
     return MegnoMap(
         (across, up),
-        frozen(centres(x0, x1, m)),
-        frozen(centres(y0, y1, n)),
-        frozen(rows[:, 0].copy()),
-        frozen(rows[:, 1].astype(int)),
-        frozen(rows[:, 2].copy()),
+        as_read_only(centres(x0, x1, m)),
+        as_read_only(centres(y0, y1, n)),
+        as_read_only(rows[:, 0].copy()),
+        as_read_only(rows[:, 1].astype(int)),
+        as_read_only(rows[:, 2].copy()),
         abs(span),
         level.name,
     )
@@ -297,6 +297,6 @@ def time_of(section: PoincareSection, turns: float) -> float:
     x, y = np.meshgrid(centres(x0, x1, _TRIED), centres(y0, y1, _TRIED))
     states, there = section.states_at(x.ravel(), y.ravel())
     if not there.any():
-        raise OutsideRegion("No motion of this energy crosses the section: choose a larger one.")
+        raise OutsideRegion("No motion of this energy crosses the section: choose a larger energy.")
     nu = section.system.frequency(states[there].T, np.array(section.parameters))
     return float(turns * section.slowness / np.median(nu))

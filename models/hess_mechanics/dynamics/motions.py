@@ -92,7 +92,7 @@ def integer(name: str, symbol: str, default: float, low: float, high: float, doc
     Parameter
         The parameter.
     """
-    return Parameter(name, symbol, doc, default, (low, high), 1.0, (low, high), doc, "Computation", whole=True)
+    return Parameter(name, symbol, doc, default, (low, high), 1.0, (low, high), doc, "Computation", is_integer=True)
 
 
 @dataclass(frozen=True)

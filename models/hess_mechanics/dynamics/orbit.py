@@ -13,7 +13,7 @@ from hess_mechanics.numerics.accuracy import PRECISE, Accuracy, Level
 from hess_mechanics.numerics.arguments import as_integer, as_level
 from hess_mechanics.numerics.field_values import Undefined
 from hess_mechanics.numerics.measured import measured
-from hess_mechanics.numerics.results import Array, Orbit, frozen
+from hess_mechanics.numerics.results import Array, Orbit, as_read_only
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED, STOPPED
 from hess_mechanics.parameters import plain
 
@@ -79,7 +79,7 @@ def as_times(times: float | Sequence[float] | Array) -> Array:
         raise WorkLimit(f"{t.size} times are too many: at most {MAX_SAMPLES} are allowed.")
     before = np.concatenate(([0.0], t[:-1]))
     if np.any(t < before) and np.any(t > before):
-        raise InvalidParameter("The times turn back: give increasing times from 0 on, or decreasing ones.")
+        raise InvalidParameter("The times are not monotonic: give increasing times from 0 on, or decreasing ones.")
     return t
 
 
@@ -105,8 +105,8 @@ def as_duration(duration: float, what: str) -> float:
     """
     if not _SHORTEST <= abs(duration) < math.inf:
         raise InvalidParameter(
-            f"The time span of {what} is {duration:g}, and must be finite and at least {_SHORTEST:g}: choose one like "
-            "100, or -100 for backwards."
+            f"The time span of {what} is {duration:g}, and must be finite and at least {_SHORTEST:g}: choose one such "
+            "as 100, or -100 for backward motion."
         )
     return float(duration)
 
@@ -477,7 +477,7 @@ def solve(
     problems = [problem, nearby]
 
     def run(at: Level, spent: int) -> tuple[Array, int]:
-        own = problems[at.aside]
+        own = problems[at.is_perturbed]
         out = np.empty((times.size, problem.scale.size))
         steps, end = own.system.orbit(
             own.states[0],
@@ -493,7 +493,7 @@ def solve(
             reached = np.count_nonzero(np.abs(scaled_times) <= abs(end))
             raise end_error(problem, steps, end, out[reached], most_steps)
         require_finite_states(out)
-        if not at.aside:
+        if not at.is_perturbed:
             problems[1] = nearby.with_rounding(out)
         return out, steps
 
@@ -506,8 +506,8 @@ def solve(
     return Orbit(
         body.system.name,
         level.name,
-        frozen(times),
-        frozen(states),
+        as_read_only(times),
+        as_read_only(states),
         result.status,
         absolute,
         drift,

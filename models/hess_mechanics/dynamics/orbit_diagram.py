@@ -22,7 +22,7 @@ from hess_mechanics.dynamics.periodic import MAX_PERIOD, Map, PeriodicOrbit, dif
 from hess_mechanics.errors import InvalidParameter, ModelError, NotConverged, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.patience import check_limit
-from hess_mechanics.numerics.results import Array, Mask, frozen
+from hess_mechanics.numerics.results import Array, Mask, as_read_only
 
 __all__ = [
     "MAX_VALUES",
@@ -175,7 +175,7 @@ def period_of(
         halves = points[: len(points) // 2 + m // 2], points[len(points) // 2 - m // 2 :]
         ways[m - 1] = [np.abs(difference(turns, one[m:], one[:-m])).max() for one in halves]
         if ways[m - 1].max() <= max(same, _PROMISES * promise):
-            # A multiplier near −1 makes an orbit look twice as long while it is still settling.
+            # While an orbit with a multiplier near −1 settles, its period seems doubled.
             shorter = [k - 1 for k in range(1, m) if m % k == 0]
             is_settled = bool(np.all(ways[shorter, 1] >= _SETTLING * ways[shorter, 0]))
             return (m, True) if is_settled else (0, False)
@@ -232,11 +232,12 @@ def diagram_over(
     along = np.array(values, float, ndmin=1)
     if not (along.ndim == 1 and np.all(np.isfinite(along)) and 1 <= along.size <= MAX_VALUES):
         raise InvalidParameter(
-            f"{along.size} values of the parameter, or some not finite: give 1 to {MAX_VALUES} finite values."
+            f"There are {along.size} values of the parameter, or one is not finite: give 1 to {MAX_VALUES} finite ones."
         )
     if not (crossings >= 1 and transient >= 0 and transient + crossings <= MAX_CROSSINGS):
         raise WorkLimit(
-            f"{transient} + {crossings} crossings per value: choose at least 1 and at most {MAX_CROSSINGS}."
+            f"transient + crossings = {transient} + {crossings} per value: choose at least one crossing, and together "
+            f"at most {MAX_CROSSINGS}."
         )
     first = np.array(start, float)
     restart = first if again is None else np.array(again, float)
@@ -264,9 +265,9 @@ def diagram_over(
         except WorkLimit:
             raise
         except ModelError:
-            # At this value there is no such body, or no motion: the diagram has a gap.
+            # The diagram has a gap at a value without a body or without motion.
             pass
-        shown.append(frozen(points.copy()))
+        shown.append(as_read_only(points.copy()))
         if len(points):
             periods[i], _ = period_of(map_.turns, points, map_.promise)
             ends[i] = point = points[-1]
@@ -275,11 +276,11 @@ def diagram_over(
     return Diagram(
         parameter,
         names,
-        frozen(along),
+        as_read_only(along),
         tuple(shown),
-        frozen(periods),
-        frozen(ends),
-        frozen(conservative),
+        as_read_only(periods),
+        as_read_only(ends),
+        as_read_only(conservative),
         level,
     )
 
@@ -377,7 +378,7 @@ class Cascade(Result):
 
     @property
     def ratios(self) -> Array:
-        """Ratios (λ_k − λ_(k−1))/(λ_(k+1) − λ_k), shape (k − 2,); near 4.6692 for maps like one of a line."""
+        """Ratios (λ_k − λ_(k−1))/(λ_(k+1) − λ_k), shape (k − 2,); near 4.6692 for maps close to a map of a line."""
         steps = np.diff(self.values)
         return np.asarray(steps[:-1] / steps[1:])
 
@@ -389,7 +390,7 @@ class Cascade(Result):
 
     @property
     def limit(self) -> float:
-        """Accumulation point if all further ratios equal the last one; NaN for fewer than three doublings."""
+        """Accumulation point if all further ratios equal the last ratio; NaN for fewer than three doublings."""
         if len(self.values) < 3:
             return math.nan
         return float(self.values[-1] + (self.values[-1] - self.values[-2]) / (self.ratios[-1] - 1.0))
@@ -483,14 +484,14 @@ def cascade(
             ended = f"Beyond {parameter} = {flip.value:.9g} no orbit of period {2 * orbit.period} is found."
             break
         at, orbit = born
-        # The first step says little about the distance to the next doubling.
+        # The first step is no estimate of the distance to the next doubling.
         far = end if len(flips) == 1 else flip.value + direction * 4.0 * step
     return Cascade(
         parameter,
         orbit.names,
-        frozen(np.array([one.value for one in flips])),
-        frozen(np.array([one.error for one in flips])),
-        frozen(np.array([len(one.points) for one in flips], np.int64)),
+        as_read_only(np.array([one.value for one in flips])),
+        as_read_only(np.array([one.error for one in flips])),
+        as_read_only(np.array([len(one.points) for one in flips], np.int64)),
         tuple(one.points for one in flips),
         ended,
         orbit.level,
@@ -498,7 +499,7 @@ def cascade(
 
 
 def _doubled(family: Callable[[float], Map], flip: Bifurcation, step: float) -> tuple[float, PeriodicOrbit] | None:
-    """Return the orbit of twice the period beyond a flip, and the parameter; a stable orbit if there is one."""
+    """Return the orbit of twice the period beyond a flip, if possible a stable orbit, and the parameter."""
     twice = np.concatenate([flip.points, flip.points])
     away = np.linalg.svd(shoot(family(flip.value), twice).jacobian)[2][-1].reshape(twice.shape)
     away /= np.abs(away).max()

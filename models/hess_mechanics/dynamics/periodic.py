@@ -19,7 +19,7 @@ from hess_mechanics.numerics.accuracy import Status
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.measured import SAFETY
 from hess_mechanics.numerics.patience import check_limit
-from hess_mechanics.numerics.results import Array, Complex, frozen
+from hess_mechanics.numerics.results import Array, Complex, as_read_only
 
 __all__ = [
     "MAX_PERIOD",
@@ -86,7 +86,7 @@ class Map(Protocol):
             Their images.
         """
 
-    def after(self, point: Array, count: int) -> Array:
+    def iterate(self, point: Array, count: int) -> Array:
         """Return the images after several iterations.
 
         Parameters
@@ -449,7 +449,7 @@ def _converged(map_: Map, points: Array) -> tuple[Shot, int]:
     except ModelError as error:
         raise NotConverged(f"Newton's method cannot start here: {error}") from error
     before = math.inf
-    # If every point is periodic, J consists of the errors of the map.
+    # If every point is periodic, J contains only the errors of the map.
     family = max(_FAMILY, map_.promise)
     for iteration in range(1, _ITERATIONS + 1):
         check_limit()
@@ -515,7 +515,7 @@ def find_periodic(
     points = np.array(start, float, ndmin=2)
     if points.ndim != 2 or points.shape[1] != len(map_.turns) or not np.all(np.isfinite(points)):
         raise InvalidParameter(
-            f"{start!s:.80} is not a point here: give {len(map_.turns)} finite numbers, {', '.join(map_.names)}."
+            f"{start!s:.80} is not a point of the map: give {len(map_.turns)} finite numbers, {', '.join(map_.names)}."
         )
     if len(points) > 1:
         return _measured(map_, *_converged(map_, points))
@@ -553,7 +553,7 @@ def _guesses(map_: Map, point: Array, period: int | None, most: int, near: bool)
         raise NotConverged(
             f"From here a motion returns only {len(orbit) - 1} times: start elsewhere for an orbit of period {period}."
         )
-    # From the point itself, and from where its orbit comes back closest.
+    # Start from the point itself, and from the points whose images come back closest.
     later = np.argsort(_closeness(map_, orbit[period:], orbit[:-period]), kind="stable")
     for first in (0, *later[:_TRIED]):
         yield orbit[first : first + period]
@@ -618,7 +618,7 @@ def _measured(map_: Map, shot: Shot, iterations: int) -> PeriodicOrbit:
     shot = shoot(current, shot.points[: _least_period(current, shot.points, map_.promise)])
     while True:
         better = current.tighter()
-        # The residuals of Newton's equations for the better map are the error of this one.
+        # The residuals of Newton's equations for the more accurate map estimate the error of the present map.
         there = shoot(better, shot.points)
         family = max(_FAMILY, current.promise)
         step = there.step(family)
@@ -626,11 +626,11 @@ def _measured(map_: Map, shot: Shot, iterations: int) -> PeriodicOrbit:
         nonzero = values[values > family * max(1.0, float(values[0]))]
         condition = float(nonzero[0] / nonzero[-1]) if nonzero.size else 1.0
         size = max(1.0, float(np.abs(shot.points).max()))
-        # Relative to the smallest singular value, not the condition: a unit residual becomes 1/σ.
+        # Divide by the smallest singular value σ, not by the condition number: a unit residual moves the orbit by 1/σ.
         least = float(nonzero[-1]) if nonzero.size else 1.0
         error = SAFETY * float(np.abs(step).max()) + 4.0 * _ROUNDING * size / least
         if nonzero.size < values.size:
-            # In a family no point is distinguished; only the residual is known.
+            # Within a family of periodic orbits no point is distinguished, so only the residual is known.
             error = max(error, SAFETY * there.size)
         if error <= map_.promise or current.is_floor:
             break
@@ -642,7 +642,7 @@ def _measured(map_: Map, shot: Shot, iterations: int) -> PeriodicOrbit:
     for i, turn in enumerate(map_.turns):
         if math.isfinite(turn):
             points[:, i] -= turn * np.ceil(points[:, i] / turn - 0.5)
-    # Time of one period, of this orbit and of that of the better map.
+    # Compare the period with that of the orbit of the more accurate map.
     time, other = (
         abs(one.time_of(at)) if hasattr(one, "time_of") else math.nan
         for one, at in ((current, shot.points), (better, moved.points))
@@ -650,8 +650,8 @@ def _measured(map_: Map, shot: Shot, iterations: int) -> PeriodicOrbit:
     status = Status.OK if error <= map_.promise else Status.FLOOR if map_.is_floor else Status.PROMISE_NOT_MET
     return PeriodicOrbit(
         map_.names,
-        frozen(points),
-        frozen(multipliers),
+        as_read_only(points),
+        as_read_only(multipliers),
         kind_of(multipliers, off),
         error,
         off,

@@ -28,7 +28,7 @@ from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.measured import measured
 from hess_mechanics.numerics.parallel import THREADS, run_in_threads
 from hess_mechanics.numerics.patience import check_limit
-from hess_mechanics.numerics.results import Array, Cost, SectionCrossings, angle_facts, frozen, unit_of
+from hess_mechanics.numerics.results import Array, Cost, SectionCrossings, angle_facts, as_read_only, unit_of
 
 __all__ = [
     "MAX_CROSSINGS",
@@ -78,7 +78,8 @@ class Plane:
     def __post_init__(self) -> None:
         if not (all(map(math.isfinite, self.normal)) and any(self.normal) and math.isfinite(self.offset)):
             raise InvalidParameter(
-                "The normal of the plane is 0, or the normal or offset is not finite: choose others."
+                "The normal of the plane is 0, or the normal or offset is not finite: give a nonzero normal and finite "
+                "numbers."
             )
         if self.sense not in (-1, 0, 1):
             raise InvalidParameter(
@@ -134,7 +135,7 @@ class Plane:
         offset = self.offset / largest / length
         if not math.isfinite(offset):
             raise InvalidParameter("The offset of the plane is too large for its normal: choose a smaller one.")
-        return system.cross, normal / length, offset
+        return system.crossing, normal / length, offset
 
 
 @dataclass(frozen=True)
@@ -171,7 +172,7 @@ class AnglePlane:
     sense: int = 1
 
     def __post_init__(self) -> None:
-        # Validate value and sense as those of a plane.
+        # The checks of value and sense are those of a plane.
         Plane((1.0,), self.value, self.sense)
 
     def gradient(self, state: Array) -> Array:
@@ -217,7 +218,7 @@ class AnglePlane:
             raise InvalidParameter(
                 f"{system.title} has no variable {self.index}: choose 0 to {len(system.variables) - 1}."
             )
-        return system.cross_angle, np.array([self.index, problem.scale[self.index], self.value]), 0.0
+        return system.angle_crossing, np.array([self.index, problem.scale[self.index], self.value]), 0.0
 
 
 class Surface(Protocol):
@@ -297,7 +298,7 @@ class _Search:
         if not math.isfinite(duration):
             raise InvalidParameter(f"The end of the time span is {duration}: choose a finite number.")
         if not 1 <= crossings <= MAX_CROSSINGS:
-            raise WorkLimit(f"{crossings} crossings: choose a number between 1 and {MAX_CROSSINGS}.")
+            raise WorkLimit(f"crossings = {crossings}: choose a number between 1 and {MAX_CROSSINGS}.")
         problem = Problem.of(body, states)
         if not hasattr(plane, "crossing_kernel"):
             raise InvalidParameter(
@@ -356,11 +357,11 @@ class _Search:
         problems = [self.problem, nearby]
 
         def run(level: Level, spent: int) -> tuple[tuple[Array, Array], int]:
-            own = problems[level.aside]
+            own = problems[level.is_perturbed]
             crossings, steps, ended = self.run(own, own.states[0], self.end, level, spent)
             if ended is not None:
                 raise ended
-            if not level.aside:
+            if not level.is_perturbed:
                 problems[1] = nearby.with_rounding(np.vstack((self.problem.states, crossings[1])))
             return crossings, steps
 
@@ -374,8 +375,8 @@ class _Search:
         return SectionCrossings(
             system.name,
             self.level.name,
-            frozen(times / nu),
-            frozen(states),
+            as_read_only(times / nu),
+            as_read_only(states),
             result.status,
             float((difference * scale).max(initial=0.0)) + 2e-16 * max(1.0, nu),
             drift_of(system, self.starts[0], states, p),
@@ -386,11 +387,11 @@ class _Search:
         )
 
     def _apart(self, one: tuple[Array, Array], other: tuple[Array, Array]) -> float:
-        """Return the difference of the states at the crossings of two runs, ∞ if these are not the same crossings."""
+        """Return the difference of the states at the crossings of two runs, ∞ if the crossings do not correspond."""
         (times, states), (other_times, others) = one, other
         both = min(len(states), len(others))
         off = float(np.abs(times[:both] - other_times[:both]).max(initial=0.0))
-        # One crossing may differ, at the very end of the time span.
+        # At the very end of the time span, one of the runs may have one more crossing.
         extra = np.concatenate((times[both:], other_times[both:]))
         near = 10.0 * max(self.level.promise, off)
         same = len(extra) == 0 or (len(extra) == 1 and abs(extra[0] - self.end) <= near)
@@ -617,7 +618,7 @@ def section_points(
     count = len(search.starts)
     parts = max(1, min(_PARTS, crossings // 10))
     one_part = replace(search, crossings=-(-crossings // parts))
-    problem = search.problem.perturb() if level.aside else search.problem
+    problem = search.problem.perturb() if level.is_perturbed else search.problem
     results: dict[int, tuple[Array, int]] = {}
     reasons = [""] * count
 
@@ -658,7 +659,7 @@ def section_points(
     drift = {name: max(one[name] for one in drifts) for name in (drifts[0] if drifts else ())}
     wall_ms = (time.perf_counter() - begun) * 1e3
     return SectionPoints(
-        [frozen(results[i][0]) for i in range(count)],
+        [as_read_only(results[i][0]) for i in range(count)],
         drift,
         Cost(sum(steps for _, steps in results.values()), wall_ms),
         body.system.variables,

@@ -43,7 +43,7 @@ def nearest(turns: Sequence[float], a: Array, b: Array) -> Array:
     ndarray, shape (n,)
         Distances.
     """
-    from scipy.spatial import cKDTree  # imported here because it takes 0.2 s
+    from scipy.spatial import cKDTree  # Imported here because the import takes 0.2 s.
 
     box = np.array([turn if math.isfinite(turn) else 0.0 for turn in turns])
 
@@ -89,7 +89,7 @@ class SetDistance:
     overlap : float
         Fraction of the points of one set that are as close to the other set as the halves of one set are to each other,
         the smaller of the two, 0 to 1.
-    settled : bool
+    has_settled : bool
         True if the halves of each set are closer to each other than a fifth of its size.  Otherwise the orbit was too
         short or had not settled.
     """
@@ -98,12 +98,12 @@ class SetDistance:
     error: float
     grain: float
     overlap: float
-    settled: bool
+    has_settled: bool
 
     @property
     def is_separated(self) -> bool:
         """True if no point of one set is close to the other set, as far as the grain resolves this."""
-        return self.settled and self.overlap < 0.005 and self.distance > self.grain + self.error
+        return self.has_settled and self.overlap < 0.005 and self.distance > self.grain + self.error
 
 
 def set_distance(turns: Sequence[float], a: Array, b: Array) -> SetDistance:
@@ -142,7 +142,8 @@ def set_distance(turns: Sequence[float], a: Array, b: Array) -> SetDistance:
     ]
     shared = []
     for (first, second), other in zip(halves, (b, a), strict=True):
-        # "Close" means within the distance that 95 % of the points of one half have from the other half.
+        # "Close" means within the 95 % quantile of the distances from the points of one half of a set to the other
+        # half.
         close = max(_RESOLVED, float(np.quantile(nearest(turns, first, second), _QUANTILE)))
         own = np.concatenate([first, second])
         shared.append(float(np.mean(nearest(turns, own, other) <= close)))

@@ -161,7 +161,7 @@ class TaylorModel(_Number):
         try:
             q = arb_poly([c.mid() for c in (1 / arb_series(self.polynomial.coeffs()[: self.terms])).coeffs()])
         except ValueError:
-            # The first coefficient may be zero, or it is not finite.
+            # The first coefficient may be zero or not finite.
             raise ZeroDivisionError("a divisor that may vanish where a step begins") from None
         finally:
             ctx.cap = before

@@ -39,7 +39,7 @@ from hess_mechanics.numerics.accuracy import Status
 from hess_mechanics.numerics.arguments import as_integer, as_point
 from hess_mechanics.numerics.labelled import Labels, Result, components
 from hess_mechanics.numerics.patience import check_limit
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, as_read_only
 
 __all__ = ["Dynamics", "MotionKind", "Regime", "comparison", "dynamics_of", "regime"]
 
@@ -201,7 +201,7 @@ class _Evidence:
 
     crossings: int
     period: int
-    settled: bool
+    has_settled: bool
     early: float
     late: float
     k: float
@@ -229,13 +229,13 @@ class _Evidence:
         """The kind of the motion that this evidence shows."""
         if self.period:
             return MotionKind.FIXED_POINT if self.period == 1 else MotionKind.PERIODIC
-        # Neighbours part exponentially, and still do when the time is doubled.
+        # Neighbours separate exponentially, and continue to when the time is doubled.
         grows = min(self.early, self.late) > CHAOTIC and self.late > _GROWS * self.early
         if grows and self.k > _CHAOTIC_SERIES and not self.regular:
             return MotionKind.CHAOTIC
         if not (self.late < max(REGULAR, self.early) or self.regular):
             return MotionKind.UNDECIDED
-        if not self.settled:
+        if not self.has_settled:
             return MotionKind.SETTLING
         if self.crossings >= (_MANY if self.dissipative else _FEWEST) and self.smooth:
             return MotionKind.QUASI_PERIODIC
@@ -290,7 +290,7 @@ def regime(
     if len(points) < transient + crossings:
         return _not_seen(map_, points, start)
     points = points[transient:]
-    # MEGNO raises the error for a time that is not positive.
+    # Pass a time that is not positive to MEGNO unchanged, which raises the error for it.
     span = max(duration, _RETURNS * map_.time_of(points[-1])) if duration > 0.0 else duration
     evidence = _evidence(map_, points, span)
     for _ in range(_ROUNDS - 1):
@@ -314,14 +314,14 @@ def regime(
         kind = MotionKind.NO_PERIOD
     divergence = (0.0, 0.0) if measure else (evidence.divergence, evidence.divergence_error)
     return Regime(
-        map_, kind, frozen(points.copy()), span, evidence.period, evidence.late, evidence.k, *divergence, measure
+        map_, kind, as_read_only(points.copy()), span, evidence.period, evidence.late, evidence.k, *divergence, measure
     )
 
 
 def _not_seen(map_: ReturnMap, points: Array, start: Sequence[float] | Array) -> Regime:
     last = points[-1] if len(points) else np.array(start, float)
     measure = map_.section.measure
-    return Regime(map_, MotionKind.NO_RETURN, frozen(points.copy()), map_.wait(last), measure=measure)
+    return Regime(map_, MotionKind.NO_RETURN, as_read_only(points.copy()), map_.wait(last), measure=measure)
 
 
 def _evidence(map_: ReturnMap, points: Array, duration: float) -> _Evidence:
@@ -363,7 +363,7 @@ def _closes(map_: ReturnMap, points: Array, m: int) -> bool:
     """Return True if Newton's method finds an orbit of period m on which the points lie, or to which they tend."""
     last, precision = points[-m:], min(SAME, _CLOSED * map_.promise)
     if m == 1 and _at_rest(map_, last[0], precision):
-        # There is no return, but the motion is known: f(y) = 0.
+        # The motion does not return, but its kind is known: f(y) = 0.
         return True
     try:
         orbit = find_periodic(map_, last if m > 1 else last[0], m, near=True)
@@ -378,7 +378,7 @@ def _closes(map_: ReturnMap, points: Array, m: int) -> bool:
     gap = float(np.abs(difference(map_.turns, points[m:], points[:-m])).max())
     if away[-1] <= precision or (gap <= precision and away[-1] <= SAME):
         return True
-    # An attracting orbit is the limit if the distance falls as its multiplier says.
+    # An attracting orbit is the limit if the distance decreases at the rate of its multiplier.
     rate = float(np.abs(orbit.multipliers).max()) + orbit.multiplier_error
     return rate < 1.0 and float(away[-1]) < 0.5 * (1.0 + rate ** (periods - 1)) * float(away[0])
 
@@ -427,7 +427,7 @@ def _reversor(map_: ReturnMap, points: Array) -> str:
                 ]
             )
             there = plane.points_of(images)
-            # The image has to be on the same levels of the integrals.
+            # The image must have the same values of the integrals.
             same = float(np.abs(map_.state_at(there) - images).max()) <= SAME * max(1.0, float(np.abs(images).max()))
         except (ModelError, IndexError):
             continue
@@ -437,7 +437,7 @@ def _reversor(map_: ReturnMap, points: Array) -> str:
 
 
 def _has_a_curve(map_: ReturnMap, point: Array, duration: float) -> bool:
-    """True if one more exponent is 0 than the integrals and the direction of motion require.
+    """True if more exponents vanish, by one, than the integrals and the direction of motion require.
 
     An attracting invariant curve has such an exponent; an attracting periodic orbit, however long, does not.
     """
@@ -469,7 +469,7 @@ class Dynamics(Result):
     @property
     def settled_comparisons(self) -> tuple[SetDistance, ...]:
         """Comparisons of the orbits that have settled; all comparisons if there is no such orbit."""
-        return tuple(one for one in self.comparisons if one.settled) or self.comparisons
+        return tuple(one for one in self.comparisons if one.has_settled) or self.comparisons
 
     @property
     def distance(self) -> float:
@@ -483,7 +483,7 @@ class Dynamics(Result):
 
     @property
     def overlap(self) -> float:
-        """Fraction of the points of one set that lie at the other, the mean over the settled orbits."""
+        """Mean fraction of the points of one set that are close to the other set, over the settled orbits."""
         return float(np.mean([one.overlap for one in self.settled_comparisons]))
 
     @property
@@ -491,7 +491,7 @@ class Dynamics(Result):
         """The verdict: "conservative", "dissipative", "mixed" or "not told apart"."""
         if self.motion.map_.preserves_volume or self.motion.measure:
             return "conservative"
-        if sum(one.settled for one in self.comparisons) >= _ENOUGH and self.motion.volume < 0:
+        if sum(one.has_settled for one in self.comparisons) >= _ENOUGH and self.motion.volume < 0:
             if all(one.is_separated for one in self.settled_comparisons):
                 return "dissipative"
             if all(one.overlap >= _TOUCHING for one in self.settled_comparisons):
@@ -618,6 +618,6 @@ def comparison(
                 raise NoReturn(
                     f"Followed {way} in time, the motion returned only {len(orbit)} times: choose another point."
                 )
-            pair.append(frozen(orbit[transient:].copy()))
+            pair.append(as_read_only(orbit[transient:].copy()))
         pairs.append((pair[0], pair[1]))
     return Dynamics(motion, *pairs[0], tuple(set_distance(map_.turns, a, b) for a, b in pairs))

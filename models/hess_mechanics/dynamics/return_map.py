@@ -27,7 +27,7 @@ from hess_mechanics.dynamics.periodic import difference
 from hess_mechanics.dynamics.plane_section import SectionPoints, Surface, section_points
 from hess_mechanics.dynamics.symmetry import Mirror, sign_symmetries
 from hess_mechanics.dynamics.system import Problem, System
-from hess_mechanics.dynamics.variation import onto_surface
+from hess_mechanics.dynamics.variation import return_derivative
 from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy, Level
 from hess_mechanics.numerics.arguments import as_integer, as_number
@@ -398,7 +398,7 @@ class ReturnMap:
         points = self._points(point)
         states, there = self.section.states_at(*np.atleast_2d(points).T)
         for i in np.flatnonzero(~there):
-            # A computed point may lie beyond the edge by its error: take the nearest of some points around it.
+            # The error of a computed point may put it beyond the edge: take the nearest of some points around it.
             ways = np.array([*product((0.0, -1.0, 1.0), repeat=len(self.names))])
             around = np.multiply.outer(self.promise * _AROUND, ways).reshape(-1, len(self.names))
             near, inside = self.section.states_at(*(np.atleast_2d(points)[i] + around).T)
@@ -427,9 +427,9 @@ class ReturnMap:
         WorkLimit
             If the return needs too many steps.
         """
-        return self.after(point, 1)
+        return self.iterate(point, 1)
 
-    def after(self, point: Array, count: int) -> Array:
+    def iterate(self, point: Array, count: int) -> Array:
         """Return the image of a point after several returns.
 
         Parameters
@@ -504,7 +504,8 @@ class ReturnMap:
             if not on.size:
                 break
             points = np.asarray(section.points_of(states[on]))
-            # A point beyond the edge is inaccurate: restart before it; if it is the first, use a smaller tolerance.
+            # A point beyond the edge is inaccurate: restart before such a point; if the first point is one, use a
+            # smaller tolerance.
             inside = section.states_at(*points.T)[1]
             on = on[: len(on) if inside.all() else max(1, int(np.argmin(inside)))]
             again = not inside[0] and not self.is_floor
@@ -595,7 +596,7 @@ class ReturnMap:
         section, scale = self.section, problem.scale
         states = ends * scale
         flow, frame = self._flow(problem, times)
-        onto = onto_surface(
+        onto = return_derivative(
             scale[:, None] * flow,
             scale * problem.nu * section.system.rates(ends, problem.parameters),
             np.array([section.surface.gradient(state) for state in states]),
@@ -613,7 +614,7 @@ class ReturnMap:
             points = np.empty(0)
         if points.ndim > 2 or points.shape[-1] != len(self.names):
             raise InvalidParameter(
-                f"{point!s:.80} is not a point here: give {len(self.names)} numbers, {', '.join(self.names)}."
+                f"{point!s:.80} is not a point of the section: give {len(self.names)} numbers, {', '.join(self.names)}."
             )
         return points
 
@@ -633,7 +634,7 @@ class ReturnMap:
         derivatives = np.empty((m, d, d - 1))
         state, growth, volume = np.empty((1, d)), np.empty((1, d - 1)), np.empty(1)
         for i in range(m):
-            steps = system.vary_others(
+            steps = system.transverse_variation(
                 problem.states[i],
                 np.ascontiguousarray(frames[i]),
                 problem.parameters,
@@ -659,7 +660,7 @@ class ReturnMap:
         """
         section, accuracy = self.section, self.accuracy
         problem = Problem.of(section, starts)
-        problem = problem.perturb() if accuracy.aside else problem
+        problem = problem.perturb() if accuracy.is_perturbed else problem
         surface = section.surface
         cross, normal, offset = surface.crossing_kernel(section.system, problem)
         direction = section.slowness * (-1.0 if self.backward else 1.0)
@@ -724,7 +725,7 @@ class ReturnMap:
             whole = np.asarray(there.reshape(left.size, -1).all(axis=1))
             inside = states.reshape(left.size, *shifts.shape[:3], -1)[whole]
             both = np.einsum("nswkd,w->nskd", inside, _WEIGHTS) / sizes[:, None, None]
-            # Close to the edge, where states change as a root, the step has to be shorter.
+            # Close to the edge, where states vary like a square root, the step has to be shorter.
             size = np.abs(both).max(axis=(1, 2, 3), initial=1.0)
             agree = np.abs(both[:, 0] - both[:, 1]).max(axis=(1, 2), initial=0.0) <= _AGREE / step * size
             whole[whole] = done = agree | (step < 1e-5)
@@ -736,7 +737,7 @@ class ReturnMap:
 
     def _in_plane(self, states: Array, points: Array, away: Array) -> Array:
         """Return ∂x/∂Y at states (m, d) along directions (m, k, d); column j belongs to direction j."""
-        # In units of the state: its components differ in size.
+        # Scale the steps by the state, whose components differ in size.
         unit = _STEP * np.abs(states).max(axis=1, initial=1.0)[:, None, None]
         sizes = np.maximum(np.linalg.norm(away, axis=2, keepdims=True), 1e-300)
         shifted = states[:, None] + _SHIFTS[:, None, None, None] * unit * away / sizes

@@ -79,7 +79,7 @@ def sample_times(body: Body, state: Array, duration: float, weights: Array, sagi
     rates = body.system.rates(states * problem.scale, body.parameters)
     accelerations = np.gradient(rates, duration / (count - 1), axis=0) * weights
     density = np.sqrt(np.linalg.norm(accelerations, axis=1) / (8.0 * sagitta))
-    density = np.maximum(density, 16.0 / abs(duration))  # some samples for a motion at rest too
+    density = np.maximum(density, 16.0 / abs(duration))  # Take some samples of a motion at rest, too.
     needed = np.concatenate([[0.0], np.cumsum(0.5 * (density[1:] + density[:-1]) * (abs(duration) / (count - 1)))])
     samples = int(min(most - 1, np.ceil(needed[-1]))) + 1
     times = np.interp(np.linspace(0.0, needed[-1], samples), needed, even)

@@ -14,7 +14,7 @@ from hess_mechanics.dynamics.ensemble import complete
 from hess_mechanics.dynamics.return_map import PoincareSection, section_crossings
 from hess_mechanics.errors import ModelError, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, as_read_only
 
 __all__ = ["Visits", "visits", "visits_over"]
 
@@ -43,8 +43,8 @@ class Visits:
     points: int
     drift: Mapping[str, float]
 
-    def after(self, before: Visits) -> Visits:
-        """Return these visits added to earlier ones of the same orbits.
+    def combine(self, before: Visits) -> Visits:
+        """Add these visits to earlier visits of the same orbits.
 
         Parameters
         ----------
@@ -58,7 +58,7 @@ class Visits:
         """
         drift = _larger(before.drift, self.drift)
         return replace(
-            self, counts=frozen(self.counts + before.counts), points=self.points + before.points, drift=drift
+            self, counts=as_read_only(self.counts + before.counts), points=self.points + before.points, drift=drift
         )
 
 
@@ -104,7 +104,7 @@ def visits(
     WorkLimit
         As `section_points`, and if a motion ends.
     """
-    # Counting in NumPy takes a hundredth of the time of the orbits: no kernel or library would be noticed.
+    # NumPy is fast enough: counting takes a hundredth of the time of the orbits.
     low, high = np.array(window)
     counts = np.zeros(cells[0] * cells[1], np.uint32)
     ends, points, drift = list[Array](), 0, dict[str, float]()
@@ -121,7 +121,10 @@ def visits(
             ends.extend(states[-1:])
         drift = _larger(drift, orbits.drift)
     return Visits(
-        frozen(counts.reshape(cells[::-1])), frozen(np.array(ends).reshape(-1, starts.shape[1])), points, drift
+        as_read_only(counts.reshape(cells[::-1])),
+        as_read_only(np.array(ends).reshape(-1, starts.shape[1])),
+        points,
+        drift,
     )
 
 
@@ -191,7 +194,7 @@ def visits_over(
         except WorkLimit:
             raise
         except ModelError:
-            # At this value there is no such body, or no motion.
+            # A value without a body or without motion leaves its column empty.
             continue
         states = orbits.states[0]
         coordinates = section.points_of(states[section.is_on(states)])
@@ -201,7 +204,7 @@ def visits_over(
         np.add.at(counts[:, j], ((within - low) * (rows / (high - low))).astype(int), 1)
         points += len(within)
         drift = _larger(drift, orbits.drift)
-    return Visits(frozen(counts), frozen(ends), points, drift)
+    return Visits(as_read_only(counts), as_read_only(ends), points, drift)
 
 
 def _larger(one: Mapping[str, float], other: Mapping[str, float]) -> dict[str, float]:

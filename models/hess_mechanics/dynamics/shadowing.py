@@ -15,7 +15,14 @@ import numpy as np
 from hess_mechanics.dynamics.periodic import difference
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["HALF_A_PIXEL", "away_from", "errors_in_pixels", "has_diverged", "lower_median", "right_crossings"]
+__all__ = [
+    "HALF_A_PIXEL",
+    "count_correct_crossings",
+    "distances_to_curve",
+    "errors_in_pixels",
+    "has_diverged",
+    "lower_median",
+]
 
 HALF_A_PIXEL = 0.5
 _LOST, _CHAOTIC, _NOTHING = 30.0, 30.0, 1e-6
@@ -50,7 +57,7 @@ def errors_in_pixels(
 
 
 def has_diverged(away: Array) -> bool:
-    """Return True if chaos has made a computed orbit a different one.
+    """Return True if a computed orbit has separated from the true orbit because of chaos.
 
     Parameters
     ----------
@@ -66,7 +73,7 @@ def has_diverged(away: Array) -> bool:
     return max(early, late) >= _LOST or late > max(_CHAOTIC * early, _NOTHING)
 
 
-def away_from(points: Array, curve: Array) -> Array:
+def distances_to_curve(points: Array, curve: Array) -> Array:
     """Return the distances of points from a polyline.
 
     Parameters
@@ -89,7 +96,7 @@ def away_from(points: Array, curve: Array) -> Array:
     return np.asarray(np.linalg.norm(points[:, None] - start - shares[..., None] * along, axis=2).min(axis=1), float)
 
 
-def right_crossings(
+def count_correct_crossings(
     orbits: Sequence[Array], exact: Sequence[Array], pixels: Sequence[float], periods: Sequence[float] = (math.inf,) * 2
 ) -> tuple[int, ...]:
     """Count for each orbit the first points that lie within half a pixel of those of a more accurate run.

@@ -22,13 +22,13 @@ import numpy as np
 from hess_mechanics.dynamics.birkhoff import ERRORS, STRETCHES, batch_error
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES, MAX_STEPS, as_duration, end_of, require_finite_rates
 from hess_mechanics.dynamics.system import Body, Problem
-from hess_mechanics.dynamics.variation import LONGEST, flow_frame, one_direction, tangent
+from hess_mechanics.dynamics.variation import LONGEST, flow_frame, generic_direction, tangent
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import PLANS, STANDARD, Accuracy, Kind, Level, Status, plan
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.patience import check_limit
-from hess_mechanics.numerics.results import Array, Cost, frozen
+from hess_mechanics.numerics.results import Array, Cost, as_read_only
 from hess_mechanics.parameters import plain
 
 __all__ = ["LIMIT", "Exponent", "Spectrum", "kaplan_yorke", "lyapunov_exponent", "lyapunov_spectrum", "no_chaos"]
@@ -152,7 +152,7 @@ class Spectrum(Result):
 
     @property
     def zeros(self) -> int:
-        """Number of zero exponents: one per integral, and one for the direction of motion unless it is at rest."""
+        """Number of zero exponents: one per integral, and one for the direction of motion of a moving state."""
         return self.signs.count("0")
 
     @cached_property
@@ -236,7 +236,7 @@ def kaplan_yorke(values: Array, errors: Array, total: float, total_error: float 
     if total >= -ERRORS * total_error:
         return float(values.size), (abs(total) + total_error) / last if last > 0.0 else 0.0
     if last == 0.0:
-        # Volume shrinks, but no exponent is negative: nothing is known.
+        # Volume shrinks although no exponent is negative, so the dimension is undefined.
         return float(values.size), float(values.size)
     k = int(np.argmax(sums < 0.0)) if np.any(sums < 0.0) else values.size - 1
     if k == values.size - 1:
@@ -288,7 +288,7 @@ def no_chaos(problem: Problem, start: Array, states: Array, duration: float, lev
         times, returns = np.empty(_RETURNS), np.empty((_RETURNS, start.size))
         longest = system.longest_step(level, duration)
         plane = across, float(across @ start), 0, duration
-        number, _ = system.cross(start, p, *plane, level.order, level.tolerance, longest, MAX_STEPS, times, returns)
+        number, _ = system.crossing(start, p, *plane, level.order, level.tolerance, longest, MAX_STEPS, times, returns)
         # The first crossing may be the start itself.
         away = np.abs(returns[: max(number, 0)] - start).max(axis=1)
         if np.any(away[np.abs(times[: max(number, 0)]) > _RESTS] < _RESTS):
@@ -340,18 +340,18 @@ def lyapunov_exponent(body: Body, start: Sequence[float], duration: float, accur
     samples = abs(span) / _INTERVAL * problem.nu
     if not samples <= MAX_SAMPLES:
         raise WorkLimit(
-            f"This takes {plain(samples, 3)} samples of the growth, at most {MAX_SAMPLES} are allowed: choose a "
+            f"This takes {plain(samples, 3)} samples of the growth, but at most {MAX_SAMPLES} are allowed: choose a "
             "shorter time span."
         )
     count = max(1, math.ceil(samples))
     times = span * np.arange(1, count + 1) / count
     state = problem.states[0]
-    motion = tangent(problem, state, one_direction(state.size), problem.times(times), level, LONGEST)
+    motion = tangent(problem, state, generic_direction(state.size), problem.times(times), level, LONGEST)
     rates = motion.lengths[:, 0] / np.abs(times)
     require_finite_rates(rates)
     later = rates[count // 2 :]
     reason = no_chaos(problem, state, motion.states, span * problem.nu, level, True)
-    return Exponent(frozen(np.abs(times)), frozen(rates), float(later.max() - later.min()), reason)
+    return Exponent(as_read_only(np.abs(times)), as_read_only(rates), float(later.max() - later.min()), reason)
 
 
 def lyapunov_spectrum(
@@ -401,7 +401,7 @@ def lyapunov_spectrum(
     begun = time.perf_counter()
     problem, system = Problem.of(body, [start]), body.system
     y, d, end = problem.states[0], len(system.variables), duration * problem.nu
-    # Other columns in general position.
+    # Take other columns in general position.
     frame, speed = flow_frame(problem, np.cos(1.0 + np.arange(d * d).reshape(d, d) ** 2), _SLOW)
     ahead = speed > _SLOW
     stretches = _SETTLES + STRETCHES
@@ -418,7 +418,7 @@ def lyapunov_spectrum(
             speeds = speed * np.linalg.norm(motion.vectors[:, :, 0], axis=1)
             speed = float(speeds[-1])
             if not speeds.min() > _SLOW:
-                # From here on f is integrated like all other vectors.
+                # From now on integrate the vector f like all others.
                 ahead = False
                 continue
         columns, lengths = np.linalg.qr(motion.vectors)
@@ -432,7 +432,7 @@ def lyapunov_spectrum(
     first = _SETTLES * _SAMPLES
     together = np.column_stack([growth, volume])
     mean, error = batch_error(together[first:], times[first:])
-    # Error of the integration: one tolerance per step.
+    # The error of the integration is about one tolerance per step.
     floor = (level.tolerance + 1e-15) * steps / abs(duration)
     order = np.argsort(-mean[:-1], kind="stable")
     rates = growth[1:, order] / times[1:, None]
@@ -444,10 +444,10 @@ def lyapunov_spectrum(
     return Spectrum(
         system.name,
         level.name,
-        frozen(times[1:]),
-        frozen(rates),
-        frozen(mean[order]),
-        frozen(error[order] + floor),
+        as_read_only(times[1:]),
+        as_read_only(rates),
+        as_read_only(mean[order]),
+        as_read_only(error[order] + floor),
         float(mean[-1]),
         float(error[-1]) + floor,
         number,

@@ -80,7 +80,7 @@ def sign_symmetries(system: System, parameters: Sequence[float]) -> tuple[Mirror
     """
     d = len(system.variables)
     states = np.cos(1.0 + np.arange(d * _TRIED).reshape(d, _TRIED) ** 2).T
-    # A field may be defined in a part of the space only.
+    # A field may be defined only in a part of the space.
     with np.errstate(all="ignore"):
         rates = system.rates(states, parameters)
     size = float(np.abs(rates).max()) or 1.0

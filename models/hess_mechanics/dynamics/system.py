@@ -24,11 +24,11 @@ import numpy as np
 from hess_mechanics.errors import InvalidParameter, ModelError, WrongScaling
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.batch_kernels import ensemble_integrator, sequential_integrator
-from hess_mechanics.numerics.doubled_kernels import doubled_integrator
+from hess_mechanics.numerics.double_double_kernels import double_double_integrator
 from hess_mechanics.numerics.events_kernels import ANGLE, SurfaceKernels, crossing_finder, plane
 from hess_mechanics.numerics.expressions import Node
 from hess_mechanics.numerics.field_values import Undefined, values_at, values_with_rounding
-from hess_mechanics.numerics.jit import announced, derived_kernel, inner
+from hess_mechanics.numerics.jit import derived_kernel, inner, with_compile_notice
 from hess_mechanics.numerics.measured import perturb
 from hess_mechanics.numerics.recursions import Recursion
 from hess_mechanics.numerics.results import Array
@@ -303,7 +303,7 @@ class System:
             try:
                 problem = Problem.of(self.at(p.tolist()), states)
             except ModelError:
-                continue  # no motion there
+                continue  # No motion is possible at this state.
             except ValueError as error:
                 raise WrongScaling(
                     f"{self.title}: `rescale` and `frequency` take states (d,) and (d, n): {error}."
@@ -328,7 +328,7 @@ class System:
         actual = np.concatenate([problem.scale * scaled, problem.scale * problem.nu * rates])
         names = [*self.variables, *(f"d{name}/dt" for name in self.variables)]
         for name, one, other in zip(names, expected, actual, strict=True):
-            # Where a rate is NaN, nothing is compared.
+            # NaN rates cannot be compared.
             if abs(one - other) > _ROUNDING * float(np.max(np.abs(expected))):
                 leading = ", ".join(self.variables[: self.angular_velocities]) or "none"
                 raise WrongScaling(
@@ -363,7 +363,7 @@ class System:
         """
         rates = np.empty(states.shape)
         for i, rate in enumerate(self.field(list(states.T), np.asarray(parameters).tolist())):
-            # A rate may be a plain number.
+            # A rate may be a plain number instead of an expression.
             rates[:, i] = rate
         return rates
 
@@ -452,7 +452,7 @@ class System:
             return None
         sizes = [np.zeros(len(self.variables))]
         for y in states[:: max(1, len(states) // _SAMPLES)]:
-            with suppress(Undefined):  # at a removable zero of a divisor
+            with suppress(Undefined):  # Skip a sample at a removable zero of a divisor.
                 values, errors = self.rates_with_rounding(y, parameters)
                 size = max(np.abs(y).max(), np.abs(values).max())
                 sizes.append(np.where(errors > _CANCELS * size, errors, 0.0))
@@ -510,16 +510,16 @@ class System:
         return self._kernel("ensemble", arguments, lambda _: sequential_integrator(orbit), adjusts=False)
 
     @cached_property
-    def cross(self) -> Kernel:
+    def crossing(self) -> Kernel:
         """Kernel that finds the crossings of a plane by one orbit, see `events_kernels.crossing_finder`."""
-        return self.crosses("cross", plane(len(self.variables)))
+        return self.surface_kernel("cross", plane(len(self.variables)))
 
     @cached_property
-    def cross_angle(self) -> Kernel:
+    def angle_crossing(self) -> Kernel:
         """Kernel that finds where a variable equals a value up to full turns, see `events_kernels.ANGLE`."""
-        return self.crosses("cross_angle", ANGLE)
+        return self.surface_kernel("angle_crossing", ANGLE)
 
-    def crosses(self, task: str, surface: SurfaceKernels) -> Kernel:
+    def surface_kernel(self, task: str, surface: SurfaceKernels) -> Kernel:
         """Return a kernel that finds the crossings of a surface by one orbit.
 
         Each call derives the kernel again.
@@ -543,10 +543,13 @@ class System:
         )
 
     @cached_property
-    def doubled(self) -> Kernel:
-        """Kernel that integrates one orbit with 31 digits, see `doubled_kernels.doubled_integrator`."""
+    def double_double(self) -> Kernel:
+        """Kernel that integrates one orbit with 31 digits, see `double_double_kernels.double_double_integrator`."""
         return self._kernel(
-            "doubled", "state, start, p, scale, unit, times, max_steps, out", doubled_integrator, adjusts=False
+            "double_double",
+            "state, start, p, scale, unit, times, max_steps, out",
+            double_double_integrator,
+            adjusts=False,
         )
 
     @cached_property
@@ -561,19 +564,19 @@ class System:
         return variation(self.field, len(self.variables), len(self.parameters))
 
     @cached_property
-    def vary(self) -> Kernel:
+    def full_variation(self) -> Kernel:
         """Kernel of one orbit with its full variational equations, see `variation_kernels.variation_integrator`."""
         return self._vary("vary", len(self.variables))
 
     @cached_property
-    def vary_others(self) -> Kernel:
+    def transverse_variation(self) -> Kernel:
         """Kernel of one orbit with its variational equations, without the column along the motion."""
-        return self._vary("vary_others", len(self.variables) - 1, ahead=True)
+        return self._vary("transverse_variation", len(self.variables) - 1, ahead=True)
 
     @cached_property
-    def vary_one(self) -> Kernel:
+    def tangent_variation(self) -> Kernel:
         """Kernel of one orbit with a single column of its variational equations."""
-        return self._vary("vary_one", 1)
+        return self._vary("tangent_variation", 1)
 
     def _vary(self, task: str, columns: int, ahead: bool = False) -> Kernel:
         return self._kernel(
@@ -615,7 +618,7 @@ class System:
             if module.startswith("hess_mechanics."):
                 return compiled
             count = len(self.recursion.pairs) if written is None else written
-            return announced(compiled, f"the kernel {task} of {self.name}", _COMPILE[0] + _COMPILE[1] * count)
+            return with_compile_notice(compiled, f"the kernel {task} of {self.name}", _COMPILE[0] + _COMPILE[1] * count)
 
     def at(self, parameters: Sequence[float] | Array | None = None, **values: float) -> ParametrizedSystem:
         """Return the system with values of its parameters.
@@ -808,7 +811,7 @@ class Problem:
         for shape, names in ((given.shape[1:], system.variables), (p.shape, system.parameters)):
             if shape != (len(names),):
                 raise InvalidParameter(
-                    f"{system.title}: the shape {shape} does not fit, give {len(names)} numbers, {', '.join(names)}."
+                    f"{system.title}: the shape {shape} does not fit: give {len(names)} numbers, {', '.join(names)}."
                 )
         if not (np.all(np.isfinite(given)) and np.all(np.isfinite(p))):
             raise InvalidParameter("A component of the state or a parameter is not finite: give finite numbers.")

@@ -12,10 +12,10 @@ from typing import Any, Literal, TypeVar
 from hess_mechanics.numerics.accuracy import LEVELS, PLANS, REFERENCE, STANDARD, Kind, Plan
 from hess_mechanics.numerics.patience import check_limit
 
-__all__ = ["Alike", "LevelCost", "first_sufficient", "measure", "truth_plan"]
+__all__ = ["LevelCost", "SharedSetting", "first_sufficient", "measure", "truth_plan"]
 
 R = TypeVar("R")
-Alike = Literal["", "share", "cells"]
+SharedSetting = Literal["", "share", "cells"]
 """Part of a plan in which the truth is that of the measured level; empty for none."""
 
 _TWICE = {Kind.ROTATION: "share", Kind.LINE: "share", Kind.CURVE: "cells"}
@@ -45,7 +45,7 @@ class LevelCost:
 
     @property
     def is_measured(self) -> bool:
-        """True if there is an error."""
+        """True if an error was measured."""
         return not math.isnan(self.error)
 
 
@@ -71,7 +71,11 @@ def truth_plan(kind: Kind) -> Plan:
 
 
 def measure(
-    kind: Kind, run: Callable[[Plan], R], error: Callable[[R, R], float], repeats: int = 1, alike: Alike = ""
+    kind: Kind,
+    run: Callable[[Plan], R],
+    error: Callable[[R, R], float],
+    repeats: int = 1,
+    shared_setting: SharedSetting = "",
 ) -> Iterator[LevelCost]:
     """Yield the cost of a computation at each level, the cheapest first.
 
@@ -87,8 +91,8 @@ def measure(
         Function error(result, truth) that returns the distance of a result from that of the plan `truth_plan`.
     repeats : int, default 1
         Number of runs, of which the fastest counts.
-    alike : str, default ""
-        One of `Alike`, for results at other points than those of another level.
+    shared_setting : str, default ""
+        One of `SharedSetting`, for results at other points than those of another level.
 
     Yields
     ------
@@ -103,14 +107,14 @@ def measure(
 
     @cache
     def truth(own: float) -> R:
-        same: dict[str, Any] = {alike: own} if alike else {}
+        same: dict[str, Any] = {shared_setting: own} if shared_setting else {}
         return run(replace(truth_plan(kind), **same))
 
     def exact(plan: Plan) -> R:
         """Return the truth for the result of a plan; plans that are alike share it."""
-        return truth(getattr(plan, alike) if alike else 1.0)
+        return truth(getattr(plan, shared_setting) if shared_setting else 1.0)
 
-    # The costliest first: it fails if any does.
+    # Run the costliest plan first: if any plan fails, it does.
     exact(PLANS[kind][REFERENCE.name])
     for name in LEVELS:
         plan, seconds = PLANS[kind][name], []

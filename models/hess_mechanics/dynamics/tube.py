@@ -41,10 +41,10 @@ from hess_mechanics.numerics.balls import BALL_FUNCTIONS, ArbBall, Enclosure, en
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.patience import check_limit
 from hess_mechanics.numerics.recursions import Recursion
-from hess_mechanics.numerics.results import Array, Orbit, frozen
+from hess_mechanics.numerics.results import Array, Orbit, as_read_only
 
 __all__ = [
-    "MOST_WORK",
+    "MAX_WORK",
     "WORK_PER_SECOND",
     "ProvedOrbit",
     "Tube",
@@ -57,7 +57,7 @@ WORK_PER_SECOND = 5e5
 """Work per second: steps times the square of their terms, three times that if a field divides, plus the terms of each
 requested time, at all precisions together.  A limit on work, not on seconds, makes the end of a tube reproducible.
 Measured: 4.5e5 to 1.4e6 per second on one core."""
-MOST_WORK = 4.0 * WORK_PER_SECOND
+MAX_WORK = 4.0 * WORK_PER_SECOND
 _TERMS = 0.5 * math.log(2.0)
 """Terms per bit.  Steps are then e⁻² of the radius of convergence, the cheapest choice if the cost is quadratic."""
 _PARTS = 2
@@ -92,7 +92,7 @@ class Tube(Result):
         Elapsed wall time, in seconds.
     variables : tuple of str, default ()
         Names of the variables.
-    work_limited : bool, default False
+    reached_work_limit : bool, default False
         True if more work would have reached more times.
     digits : int, default 18
         Requested number of digits, with which `labels` writes the intervals.
@@ -107,7 +107,7 @@ class Tube(Result):
     bits: int
     seconds: float
     variables: tuple[str, ...] = ()
-    work_limited: bool = False
+    reached_work_limit: bool = False
     digits: int = 18
 
     def labels(self) -> Labels:
@@ -179,7 +179,7 @@ class ProvedOrbit(Result):
     def bounds(self) -> Array:
         """Upper bounds on the error of each component at the times of the tube, shape (m, d)."""
         rows = [[math.nextafter(float(most), math.inf) for _, most in sample] for sample in self._errors]
-        return frozen(np.array(rows, float).reshape(len(rows), self.orbit.states.shape[1]))
+        return as_read_only(np.array(rows, float).reshape(len(rows), self.orbit.states.shape[1]))
 
     @property
     def least(self) -> float:
@@ -193,8 +193,8 @@ class ProvedOrbit(Result):
         return float(self.bounds.max()) if self.bounds.size else math.nan
 
     @property
-    def right_until(self) -> float:
-        """Last time up to which every state is right; 0 if the first one is not."""
+    def valid_until(self) -> float:
+        """Last time up to which every state is correct; 0 if the first state is not."""
         last = 0.0
         for t, sample in zip(self.tube.times.tolist(), self._errors, strict=True):
             if max(most for _, most in sample) > Fraction(self.right_to):
@@ -211,12 +211,17 @@ class ProvedOrbit(Result):
             The variables over the times.
         """
         known = self.orbit.labels()
-        proved = ("least", "largest", "right_to", "right_until")
-        return replace(known, facts={**known.facts, **{f"proved {name}": getattr(self, name) for name in proved}})
+        proved = {
+            "proved least": self.least,
+            "proved largest": self.largest,
+            "proved right_to": self.right_to,
+            "proved right_until": self.valid_until,
+        }
+        return replace(known, facts={**known.facts, **proved})
 
 
 def tube(
-    body: Body, start: Sequence[float], times: Sequence[float] | Array, digits: int = 18, most_work: float = MOST_WORK
+    body: Body, start: Sequence[float], times: Sequence[float] | Array, digits: int = 18, most_work: float = MAX_WORK
 ) -> Tube:
     """Return intervals that are proved to contain the orbit from a state.
 
@@ -283,15 +288,15 @@ def tube(
             )
         following = 0 if best.complete else _more_bits(walk, digits, length, left)
         if following <= bits:
-            spent = not best.complete and (walk.work_limited or (bool(walk.t) and bits < _MOST_BITS))
-            return replace(best, seconds=time.perf_counter() - begun, work_limited=spent, digits=digits)
+            spent = not best.complete and (walk.reached_work_limit or (bool(walk.t) and bits < _MOST_BITS))
+            return replace(best, seconds=time.perf_counter() - begun, reached_work_limit=spent, digits=digits)
         bits = following
 
 
 def _more_bits(walk: _Walk, digits: int, length: float, left: float) -> int:
-    """Return the bits that the rest of the time needs at a walk's rate of loss, or that the work left affords."""
+    """Return the bits needed for the remaining time at a walk's rate of loss, or affordable with the remaining work."""
     gone = float(abs(walk.t))
-    if walk.work_limited or gone == 0.0 or walk.bits >= _MOST_BITS:
+    if walk.reached_work_limit or gone == 0.0 or walk.bits >= _MOST_BITS:
         return 0
     base, rate, pace = 3.33 * digits + _GUARD_BITS, 1.1 * walk.lost / gone, walk.steps / gone
     bits = _whole(min(_MOST_BITS, base + rate * length))
@@ -365,7 +370,7 @@ class _Walk:
         self.centre = [x.mid() for x in start]
         self.radius = _norm([x.rad() / size for x, size in zip(start, self.scale, strict=True)])
         self.t = Fraction(0)
-        self.steps, self.work, self.work_limited = 0, 0.0, False
+        self.steps, self.work, self.reached_work_limit = 0, 0.0, False
         self.last = math.inf
 
     @property
@@ -402,13 +407,13 @@ class _Walk:
                 states.append(tuple(enclosure(x) for x in y))
                 self.work += self.terms
                 if self.work > most_work and len(states) < len(targets):
-                    self.work_limited = True
+                    self.reached_work_limit = True
                     return states, widest
             self._go_to(step, end)
             if 2.0 * float(self.radius) > tolerance:
                 break
             if self.work > most_work:
-                self.work_limited = True
+                self.reached_work_limit = True
                 break
         return states, widest
 
@@ -422,7 +427,7 @@ class _Walk:
         self.steps += 1
 
     def _step(self, sign: int, left: float, most_work: float) -> _Step | None:
-        """Return the next step, at most over the time that is left; None if there is none, or no work left for it."""
+        """Return the next step, at most over the remaining time; None if it fails or exceeds the remaining work."""
         from flint import arb_poly
 
         series = [
@@ -443,14 +448,14 @@ class _Walk:
                 self.last = length
                 return _Step(along, length, radius)
             if self.work > most_work:
-                self.work_limited = True
+                self.reached_work_limit = True
                 return None
             length *= 0.5
         return None
 
     def _length(self, series: list[list[ArbBall]]) -> float:
         """Return the step size at which the last terms are as small as a rounding; the proof does not depend on it."""
-        # Logarithms: the terms of a distant pulse are smaller than any double.
+        # Use logarithms, because the terms of a distant pulse may underflow.
         shortest = math.log(1e6)
         for k in (self.terms - 1, self.terms - 2):
             for one, size in zip(series, self.scale, strict=True):
@@ -526,7 +531,7 @@ def _series(
     p = tuple(parameters)
     if recursion.constants:
         p += tuple(functions["constants"](tuple(y), p))
-    series: list[list[ArbBall]] = [[] for _ in range(recursion.known[-1])]
+    series: list[list[ArbBall]] = [[] for _ in range(recursion.stage_starts[-1])]
     now = list(y)
     for k in range(terms):
         one = arb(1 if k == 0 else 0)
@@ -548,8 +553,8 @@ def _series(
         for own, value in zip(series, now, strict=True):
             own.append(value)
         rates = functions["rates"](tuple(now), products(now), p, one)
-        now = [rate / (k + 1) for rate in rates[: recursion.moving]]
-    return series[: recursion.moving]
+        now = [rate / (k + 1) for rate in rates[: recursion.dimension]]
+    return series[: recursion.dimension]
 
 
 def proved_orbit(
@@ -559,7 +564,7 @@ def proved_orbit(
     accuracy: Accuracy = "standard",
     right_to: float = 1e-6,
     digits: int = 18,
-    most_work: float = MOST_WORK,
+    most_work: float = MAX_WORK,
 ) -> ProvedOrbit:
     """Return an orbit with proved bounds on its true error.
 
@@ -601,6 +606,7 @@ def proved_orbit(
     intervals = tube(body, start, times, digits, most_work)
     if not intervals.times.size:
         raise WorkLimit(
-            "No time is enclosed: reduce the digits or the time, or allow more work; or choose less extreme parameters."
+            "The motion is enclosed at none of the times: choose fewer digits, earlier times, more work or less "
+            "extreme parameters."
         )
     return ProvedOrbit(solve(body, start, intervals.times, accuracy), intervals, right_to)

@@ -46,10 +46,10 @@ class VariableSection(PoincareSection):
         The value.
     coordinates : tuple of str
         One or two other variables.
-    solved : tuple of str
+    dependent_variables : tuple of str
         The variables that follow from the integrals.
     integrals : tuple of (str, float)
-        Names and values of the integrals, as many as `solved`.
+        Names and values of the integrals, as many as `dependent_variables`.
     ranges : tuple of (float, float)
         Range of each coordinate.
     sense : int, default 1
@@ -60,7 +60,7 @@ class VariableSection(PoincareSection):
     variable: str
     value: float
     coordinates: tuple[str, ...]
-    solved: tuple[str, ...]
+    dependent_variables: tuple[str, ...]
     integrals: tuple[tuple[str, float], ...]
     ranges: tuple[tuple[float, float], ...]
     sense: int = 1
@@ -168,7 +168,7 @@ class VariableSection(PoincareSection):
         y[self._index(self.variable)] = self.value
         for name, point in zip(self.names, points, strict=True):
             y[self._index(name)] = point
-        unknown, here = [self._index(name) for name in self.solved], self._index(self.variable)
+        unknown, here = [self._index(name) for name in self.dependent_variables], self._index(self.variable)
         example = np.array(self.system.example[0])
         size = max(1.0, float(np.abs(example).max()))
         states = y.copy()
@@ -188,12 +188,12 @@ class VariableSection(PoincareSection):
         return states.T.copy(), there
 
     def _solve(self, y: Array, unknown: list[int]) -> Mask:
-        """Move the unknown variables of y (d, n) to the values of the integrals; return a mask of those that are."""
+        """Solve the integrals for the unknown variables of y (d, n); return a mask of the solved states."""
         if not unknown:
             return np.ones(y.shape[1], bool)
         last = np.full((len(unknown), y.shape[1]), np.inf)
         for _ in range(_ITERATIONS):
-            # All differences at once: a call of the integrals is expensive, whatever its length.
+            # Evaluate all differences in one call: the cost of a call hardly depends on the number of states.
             step = _STEP * np.maximum(1.0, np.abs(y[unknown]))
             moved = np.repeat(y[:, None], 2 * len(unknown) + 1, axis=1)
             for j, i in enumerate(unknown):
@@ -207,7 +207,7 @@ class VariableSection(PoincareSection):
             change = np.linalg.solve(slopes, off.T[:, :, None])[:, :, 0].T
             y[unknown] -= change
             away, size = np.abs(change), np.maximum(1.0, np.abs(y[unknown]))
-            # Near a root the changes end as round-off, and no longer shrink.
+            # Near a root the changes are round-off, which no longer shrinks.
             if np.all((away <= 1e-15 * size) | ((away <= _NEAR * size) & (away >= 0.5 * last))):
                 break
             last = away

@@ -28,7 +28,7 @@ from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.results import Array
 
-__all__ = ["LONGEST", "Tangent", "flow_frame", "one_direction", "onto_surface", "tangent"]
+__all__ = ["LONGEST", "Tangent", "flow_frame", "generic_direction", "return_derivative", "tangent"]
 
 LONGEST = 1e6
 """Length at which a single vector is normalised."""
@@ -64,7 +64,7 @@ class Tangent:
         return np.asarray(self.log_growth + np.log(np.linalg.norm(self.vectors, axis=1)))
 
 
-def one_direction(size: int) -> Array:
+def generic_direction(size: int) -> Array:
     """Return a unit vector in a direction that no symmetry singles out.
 
     Parameters
@@ -161,7 +161,7 @@ def tangent(
     """
     system, p, (d, k) = problem.system, problem.parameters, vectors.shape
     known = int(ahead and d > 1)
-    vary = system.vary_others if known else system.vary_one if k == 1 else system.vary
+    vary = system.transverse_variation if known else system.tangent_variation if k == 1 else system.full_variation
     states, volume = np.empty((times.size, d)), np.empty(times.size)
     frames, removed = np.empty((times.size, d, k - known)), np.empty((times.size, k - known))
     own, options = np.ascontiguousarray(vectors[:, known:]), (level.order, level.tolerance, MAX_STEPS - spent, limit)
@@ -182,7 +182,7 @@ def tangent(
     return Tangent(steps, states, frames, removed, volume)
 
 
-def onto_surface(matrix: Array, rate: Array, gradient: Array) -> Array:
+def return_derivative(matrix: Array, rate: Array, gradient: Array) -> Array:
     """Return the derivative of the first return to a surface, from that of the flow.
 
     A neighbour arrives earlier or later: (1 − f nᵀ/(n·f)) V.

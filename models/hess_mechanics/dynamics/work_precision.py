@@ -11,23 +11,23 @@ from typing import TypeVar
 
 import numpy as np
 
-from hess_mechanics.dynamics.doubled import DoubleDoubleOrbit, double_double_orbit
+from hess_mechanics.dynamics.double_double import DoubleDoubleOrbit, double_double_orbit
 from hess_mechanics.dynamics.orbit import drifts_along, solve
 from hess_mechanics.dynamics.system import Problem, systems
 from hess_mechanics.numerics.accuracy import LEVELS, REFERENCE
 from hess_mechanics.numerics.patience import check_limit
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, as_read_only
 
 __all__ = [
     "SLOW_METHODS",
     "ErrorGrowth",
     "WorkPoint",
+    "fastest_scipy_method",
     "growth",
     "longest_duration",
     "measure_levels",
-    "measure_others",
-    "others_take_long",
-    "quickest_other",
+    "measure_scipy",
+    "scipy_takes_long",
     "truth",
 ]
 
@@ -169,13 +169,13 @@ def growth(
         check_limit()
         states = solve(body, start, exact.times, level).states
         difference = exact.errors_of(states)
-        errors[level.name] = frozen(np.max(difference / exact.scale, axis=1))
+        errors[level.name] = as_read_only(np.max(difference / exact.scale, axis=1))
         weighted = difference * np.asarray(weights)
-        pixels[level.name] = frozen(
+        pixels[level.name] = as_read_only(
             np.maximum(np.linalg.norm(weighted[:, :first], axis=1), np.linalg.norm(weighted[:, first:], axis=1))
         )
         along = drifts_along(system, np.array(start), states, np.array(parameters))
-        drifts[level.name] = {key: frozen(drift) for key, drift in along.items()}
+        drifts[level.name] = {key: as_read_only(drift) for key, drift in along.items()}
     return ErrorGrowth(exact.times, errors, pixels, drifts)
 
 
@@ -255,7 +255,7 @@ def longest_duration(name: str, start: Sequence[float], parameters: Sequence[flo
     return _LONGEST / Problem.of(systems()[name].at(parameters), [start]).nu
 
 
-def others_take_long(name: str, start: Sequence[float], parameters: Sequence[float], duration: float) -> bool:
+def scipy_takes_long(name: str, start: Sequence[float], parameters: Sequence[float], duration: float) -> bool:
     """Return True if SciPy's methods would take long for a motion.
 
     The decision counts steps and reads no clock, so that equal states always show the same.
@@ -290,7 +290,7 @@ def others_take_long(name: str, start: Sequence[float], parameters: Sequence[flo
     )
 
 
-def measure_others(
+def measure_scipy(
     name: str, start: tuple[float, ...], parameters: tuple[float, ...], duration: float, samples: int
 ) -> tuple[WorkPoint, ...]:
     """Measure cost and error of SciPy's methods on the plain field, at three tolerances each, without error estimates.
@@ -320,7 +320,7 @@ def measure_others(
     WorkLimit
         If the motion needs too many steps.
     """
-    from scipy.integrate import solve_ivp  # imported here because it takes 0.3 s
+    from scipy.integrate import solve_ivp  # Imported here because the import takes 0.3 s.
 
     system, exact = systems()[name], truth(name, start, parameters, duration, samples)
     evaluations = count(1)
@@ -341,13 +341,13 @@ def measure_others(
     return tuple(points)
 
 
-def quickest_other(points: Sequence[WorkPoint], error: float) -> WorkPoint | None:
+def fastest_scipy_method(points: Sequence[WorkPoint], error: float) -> WorkPoint | None:
     """Return the fastest of SciPy's methods that is accurate enough.
 
     Parameters
     ----------
     points : sequence of WorkPoint
-        Points of `measure_others`.
+        Points of `measure_scipy`.
     error : float
         Largest error, in units in which the state is O(1).
 

@@ -21,7 +21,7 @@ _IN_A_BAND = 200
 
 
 def zero_one_test(series: Array) -> float:
-    """Return K, close to 1 for a chaotic series and close to 0 for a quasi-periodic or periodic one.
+    """Return K, close to 1 for a chaotic series and close to 0 for a quasi-periodic or periodic series.
 
     The series drives a translation p(n + 1) = p(n) + φ(n) e^{icn} of the plane.  Its mean-square displacement over a
     lag grows linearly in the lag for chaotic series and stays bounded for regular ones; K is the correlation of that

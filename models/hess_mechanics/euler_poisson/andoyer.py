@@ -33,7 +33,7 @@ from hess_mechanics.dynamics.system import Problem, System
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.euler_poisson.andoyer_kernels import cross, least_excess, roots_into
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody, field
-from hess_mechanics.numerics.results import Array, Mask, frozen
+from hess_mechanics.numerics.results import Array, Mask, as_read_only
 from hess_mechanics.rigid_body.inertia import require_finite
 
 __all__ = [
@@ -439,7 +439,7 @@ class AndoyerSection(PoincareSection):
         least_excess(float(self.h), float(self.f), self.body.strength, *self._factors(l, x), _ROUGH, least)
         return np.asarray(least <= 0.0)
 
-    def impossible(self, window: Window) -> Array:
+    def forbidden_cells(self, window: Window) -> Array:
         """Return the forbidden region of a window, as cells.
 
         Parameters
@@ -457,7 +457,7 @@ class AndoyerSection(PoincareSection):
         grid = np.meshgrid(centres(l0, l1, m), centres(x0, x1, n))
         l, x = grid[0].ravel(), np.clip(grid[1].ravel(), -1.0, 1.0)
         inside = self.states_at(l, x)[1] if self.sheet else self.possible(l, x)
-        return frozen(1.0 - inside.reshape(n, m).astype(float))
+        return as_read_only(1.0 - inside.reshape(n, m).astype(float))
 
 
 def _section(values: Mapping[str, float]) -> AndoyerSection:

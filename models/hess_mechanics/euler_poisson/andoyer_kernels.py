@@ -44,7 +44,7 @@ def _on_this_side(y, normal):
     return y[3] * y[1] - y[4] * y[0] > 0.0
 
 
-_cross = crossing_finder(SYSTEM.recursion, SurfaceKernels(_along, _height, _on_this_side, curved=True))
+_cross = crossing_finder(SYSTEM.recursion, SurfaceKernels(_along, _height, _on_this_side, is_nonlinear=True))
 
 
 @kernel

@@ -117,7 +117,7 @@ class Bridge:
             If r = 0.
         """
         s, c = _tilt(heavy)
-        a = s * c * (heavy.a[0] - heavy.a[2]) / heavy.a[1] + 0.0  # no −0.0
+        a = s * c * (heavy.a[0] - heavy.a[2]) / heavy.a[1] + 0.0  # Avoid −0.0.
         I22 = 1.0 / (heavy.a[1] * (1.0 + a * a))
         b = heavy.a[1] * heavy.mu * math.hypot(*heavy.r)
         return cls(heavy, HessBody(I22, a * I22, -b * I22 * math.hypot(1.0, a)))
@@ -153,7 +153,7 @@ class Bridge:
         """
         require_finite(share=share)
         if not 0.0 < share <= 1.0:
-            raise InvalidParameter(f"share = {share:g} is not in (0, 1]: choose 0.5 for the middle.")
+            raise InvalidParameter(f"share = {share:g}: choose 0 < share ≤ 1, such as 0.5 for the middle.")
         squared = hess.a * hess.a
         x = share * 0.5 * (1.0 - squared if squared < 1.0 else 1.0)
         moments = hess.I11 / (1.0 - x), hess.I11, hess.I11 / (1.0 + squared / x)

@@ -22,7 +22,7 @@ from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from hess_mechanics.numerics.accuracy import REFERENCE, Accuracy
 from hess_mechanics.numerics.arguments import as_level
-from hess_mechanics.numerics.results import Array, Orbit, frozen
+from hess_mechanics.numerics.results import Array, Orbit, as_read_only
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.equations import SYSTEM as REDUCED
 
@@ -77,7 +77,7 @@ class FreeRun:
         Times.
     states : ndarray, shape (n, 6)
         States (M1, M2, M3, γ1, γ2, γ3).
-    off : ndarray, shape (n,)
+    offset : ndarray, shape (n,)
         The leak (r, M)/(|r| max |M|), 0 on the manifold.
     steps : int
         Number of steps.
@@ -88,14 +88,14 @@ class FreeRun:
     level: str
     times: Array
     states: Array
-    off: Array
+    offset: Array
     steps: int
     drift: Mapping[str, float]
 
     @cached_property
     def andoyer(self) -> Array:
         """The coordinates (l, L/G) along the orbit, shape (n, 2); l in radians."""
-        return frozen(coordinates(self.states))
+        return as_read_only(coordinates(self.states))
 
 
 _BEFORE_HELD = 3.0
@@ -139,11 +139,11 @@ def run_free(
         If the motion needs too many steps, or too many projections.
     """
     level = as_level(accuracy)
-    times = frozen(np.linspace(0.0, duration, count))
+    times = as_read_only(np.linspace(0.0, duration, count))
     problem = Problem.of(body, [start])
     scaled = problem.times(times)
     axis, a = np.array(body.r) / math.hypot(*body.r), body.a[1]
-    # |w| of the motion on the manifold is at most `fastest`.
+    # `fastest` is an upper bound on |w| of the motion on the manifold.
     fastest = math.sqrt((a * math.hypot(*start[:3])) ** 2 + 4.0 * a * body.strength)
     growth = body.hess_a * fastest * duration
     pieces = math.ceil(max((count - 1) / _HELD_SAMPLES, growth / _BEFORE_HELD)) if held else 1
@@ -173,7 +173,7 @@ def run_free(
     states = out * problem.scale
     drift = drift_of(SYSTEM, states[0], states, np.array(body.parameters))
     off = states[:, :3] @ axis / (np.linalg.norm(states[:, :3], axis=1).max() or 1.0)
-    return FreeRun(level.name, times, frozen(states), frozen(off), total, drift)
+    return FreeRun(level.name, times, as_read_only(states), as_read_only(off), total, drift)
 
 
 @dataclass(frozen=True)
@@ -184,7 +184,7 @@ class SuslovDistance:
     ----------
     times : ndarray, shape (n,)
         Times.
-    held : ndarray, shape (n,)
+    constrained : ndarray, shape (n,)
         Distance of the motion that is held on the manifold, in units b = 1.
     free : ndarray, shape (n,)
         Distance of the motion that is left free, in units b = 1.
@@ -193,7 +193,7 @@ class SuslovDistance:
     """
 
     times: Array
-    held: Array
+    constrained: Array
     free: Array
     error: float
 
@@ -234,7 +234,7 @@ def difference(bridge: Bridge, start: tuple[float, ...], duration: float, count:
         bridge.distance(run_free(bridge.heavy, heavy, duration, count, REFERENCE, held).states, there)
         for held in (True, False)
     )
-    return SuslovDistance(frozen(times), frozen(held), frozen(free), orbit.error_estimate)
+    return SuslovDistance(as_read_only(times), as_read_only(held), as_read_only(free), orbit.error_estimate)
 
 
 _STRAIGHT = (3e-14, 1e-3)
@@ -293,7 +293,7 @@ class Leak:
         It is the slope of ln |(r, M)| against the number of the period, in a least-squares fit of a straight line plus
         a function of that period.
         """
-        off, samples = self.run.off, self.samples
+        off, samples = self.run.offset, self.samples
         rows = (off.size - 1) // samples
         table = np.abs(off[: rows * samples].reshape(rows, samples))
         low, high = _STRAIGHT
@@ -310,7 +310,7 @@ class Leak:
     @property
     def side(self) -> tuple[int, bool]:
         """The sign of (r, M) when it becomes visible (0: never), and True if it does not change afterwards."""
-        off = self.run.off[np.abs(self.run.off) > _STRAIGHT[1]]
+        off = self.run.offset[np.abs(self.run.offset) > _STRAIGHT[1]]
         return (int(np.sign(off[0])), bool(np.all(off * off[0] > 0.0))) if off.size else (0, True)
 
     def straight_line(self, per_period: float, ends: tuple[float, float]) -> list[Array]:
@@ -331,7 +331,7 @@ class Leak:
         if self.growth is None or per_period == 0.0:
             return []
         seen = slice(self.growth.first * self.samples, (self.growth.first + self.growth.periods) * self.samples)
-        t, height = (float(np.mean(one[seen])) for one in (self.run.times, np.log10(np.abs(self.run.off))))
+        t, height = (float(np.mean(one[seen])) for one in (self.run.times, np.log10(np.abs(self.run.offset))))
         period = self.run.times[-1] * self.samples / (self.run.times.size - 1)
         rate, lg = per_period / (period * math.log(10.0)), np.array(ends)
         return [np.column_stack([t + (lg - height) / rate, lg])]

@@ -23,7 +23,7 @@ from hess_mechanics.euler_poisson.equations import HeavyBody
 from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from hess_mechanics.numerics.accuracy import REFERENCE, Accuracy
 from hess_mechanics.numerics.arguments import as_level
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, as_read_only
 from hess_mechanics.suslov_hess.bifurcation import turning_points
 from hess_mechanics.suslov_hess.circle_map import circle_map
 
@@ -151,7 +151,7 @@ def saddles(torus: HessTorus, accuracy: Accuracy) -> Saddles:
     try:
         theta = circle_map(bridge.hess.a, h, f, REFERENCE)
     except OutsideRegion as reason:
-        # The numbers in the original message are in other units.
+        # Raise a new error, because the numbers in the original message are in other units.
         raise OutsideRegion(
             "The Hess manifold has no motion with these h and f, so no separatrices: choose a larger h "
             "or a smaller |f|."
@@ -213,7 +213,7 @@ def split_at(torus: HessTorus, away: float, accuracy: Accuracy) -> Split:
 
 
 def _towards(map_: ReturnMap, points: Array, l: float, stable: bool) -> Manifold:
-    """Return the branch along the Hess manifold, from the saddle next to these points to l and beyond."""
+    """Return the branch along the Hess manifold, from the saddle near these points to beyond the angle l."""
     orbit = find_periodic(map_, points if len(points) > 1 else points[0], None if len(points) > 1 else 1, near=True)
     if (
         not orbit.kind.startswith("saddle")
@@ -235,9 +235,9 @@ def _towards(map_: ReturnMap, points: Array, l: float, stable: bool) -> Manifold
     d = curve[1] - curve[0]
     side = 1 if d[int(np.argmax(np.abs(d)))] > 0.0 else -1
     branch = manifold(map_, orbit, length + _ROOM, stable=stable, side=side, sagitta=_SAGITTA, longest=_CHORD)
-    # The angles continue without jumps; shift them to the turn of l.
+    # The angles continue without jumps; shift them to the turn that contains l.
     shift = (l - from_) - way
-    return replace(branch, points=frozen(branch.points + np.array([shift, 0.0])))
+    return replace(branch, points=as_read_only(branch.points + np.array([shift, 0.0])))
 
 
 def slope_of(close: Sequence[Split]) -> tuple[float, float]:

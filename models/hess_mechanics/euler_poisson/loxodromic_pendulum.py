@@ -30,7 +30,7 @@ from hess_mechanics.euler_poisson.hess_isomorphism import Bridge
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.arguments import as_a
 from hess_mechanics.numerics.labelled import ShortRepr
-from hess_mechanics.numerics.results import Array, Orbit, frozen
+from hess_mechanics.numerics.results import Array, Orbit, as_read_only
 from hess_mechanics.rigid_body.attitude import Attitude, orthonormal
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.equations import WITH_ATTITUDE
@@ -235,12 +235,12 @@ class LoxodromicMotion(ShortRepr):
     @cached_property
     def swing(self) -> Array:
         """The angle α (n,) of the centre of mass from its lowest point, in radians."""
-        return frozen(np.unwrap(np.arctan2(-self.centre[:, 2], self.centre[:, 0])))
+        return as_read_only(np.unwrap(np.arctan2(-self.centre[:, 2], self.centre[:, 0])))
 
     @cached_property
     def l(self) -> Array:  # noqa: E743 (the symbol of Andoyer and Deprit)
         """The angle l (n,) between e and the middle axis, in radians."""
-        return frozen(np.arctan2(np.hypot(self.middle[:, 0], self.middle[:, 2]), self.middle[:, 1]))
+        return as_read_only(np.arctan2(np.hypot(self.middle[:, 0], self.middle[:, 2]), self.middle[:, 1]))
 
     @property
     def plane_distance(self) -> float:
@@ -264,7 +264,7 @@ class LoxodromicMotion(ShortRepr):
         good &= apart > _SHORT * np.max(apart, initial=0.0, where=good)
         change = np.abs(np.diff(np.where(clear, latitude, 0.0)))
         times = 0.5 * (self.times[1:] + self.times[:-1])
-        return frozen(times[good]), frozen(np.arctan2(apart, change)[good])
+        return as_read_only(times[good]), as_read_only(np.arctan2(apart, change)[good])
 
 
 def loxodromic_motion(pendulum: LoxodromicPendulum, duration: float, accuracy: Accuracy) -> LoxodromicMotion:
@@ -310,12 +310,12 @@ def loxodromic_motion(pendulum: LoxodromicPendulum, duration: float, accuracy: A
     orbit = solve(system, pendulum.start, times, accuracy)
     principal = pendulum.principal
     axes, defect = orthonormal(orbit.states[:, 2:5] @ principal, orbit.states[:, 5:] @ principal)
-    lying = Attitude(frozen(orbit.times / pendulum.frequency_unit), frozen(axes), defect)
+    lying = Attitude(as_read_only(orbit.times / pendulum.frequency_unit), as_read_only(axes), defect)
     return LoxodromicMotion(
         pendulum=pendulum,
         times=lying.times,
         attitude=lying,
         orbit=orbit,
-        centre=frozen(lying.in_space(pendulum.body.r)),
-        middle=frozen(lying.in_space((0.0, 1.0, 0.0))),
+        centre=as_read_only(lying.in_space(pendulum.body.r)),
+        middle=as_read_only(lying.in_space((0.0, 1.0, 0.0))),
     )

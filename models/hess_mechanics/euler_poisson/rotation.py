@@ -41,14 +41,14 @@ class RotationProfile(Result):
         Rotation numbers in turns per return, in the same parts.
     librations : ndarray, shape (n,)
         Starts of closed curves that do not wind round, and so have no rotation number.
-    sea : ndarray, shape (n, 2)
+    chaotic_intervals : ndarray, shape (n, 2)
         Parts of the line whose orbits do not lie on closed curves, each from one position to another.
     """
 
     along: tuple[Array, ...]
     rho: tuple[Array, ...]
     librations: Array
-    sea: Array
+    chaotic_intervals: Array
 
     def labels(self) -> Labels:
         """Return ρ over the position on the line, with NaN in each gap.

@@ -66,7 +66,7 @@ class Level:
         Local error of a Taylor step in the first run, positive, in the same units.
     order : int
         Order of the Taylor series, at least 2.
-    aside : bool, default False
+    is_perturbed : bool, default False
         Start a few units in the last place beside the given state, see `measured.perturb`.
     """
 
@@ -74,7 +74,7 @@ class Level:
     promise: float
     tolerance: float
     order: int
-    aside: bool = False
+    is_perturbed: bool = False
 
     @property
     def is_floor(self) -> bool:
@@ -113,10 +113,10 @@ class Level:
         float
             The longest step, in the unit of the limit.
         """
-        return abs(limit) * (_OTHER_STEP if self.aside else 1.0)
+        return abs(limit) * (_OTHER_STEP if self.is_perturbed else 1.0)
 
     def tighter(self) -> Level:
-        """Return the same level with a hundredth of the tolerance, to measure the error of this one.
+        """Return the same level with a hundredth of the tolerance, to measure the error of this level.
 
         The order differs too, so that a motion that fits into one step is not compared with itself; and so does the
         start, so that the two runs do not make the same roundings.
@@ -127,14 +127,15 @@ class Level:
             The more accurate level.
         """
         if self.is_floor:
-            return Level(self.name, self.promise, self.tolerance / 30.0, self.order - 3, not self.aside)
+            return Level(self.name, self.promise, self.tolerance / 30.0, self.order - 3, not self.is_perturbed)
         order = self.order + 4 if self.tolerance > 1e-11 else REFERENCE.order
-        # A hundredth of 1e-15 is a little more than 1e-17: the floor would be compared with itself.
+        # The factor is 200 instead of 100, because 1e-15 · 1e-2 rounds to more than 1e-17: the floor would be compared
+        # with itself.
         tolerance = self.tolerance * 1e-2 if self.tolerance > 200.0 * FLOOR_TOLERANCE else FLOOR_TOLERANCE
-        return Level(self.name, self.promise, tolerance, order, not self.aside)
+        return Level(self.name, self.promise, tolerance, order, not self.is_perturbed)
 
     def variant(self) -> Level:
-        """Return a level as accurate as this one, whose runs make other roundings.
+        """Return an equally accurate level whose runs round differently.
 
         Returns
         -------
@@ -208,7 +209,7 @@ def cheapest(error: float) -> Level:
 
 
 class Kind(StrEnum):
-    """Kinds of computation; each one has its own meaning of the levels, see `MEANINGS`."""
+    """Kinds of computation; each kind has its own meaning of the levels, see `MEANINGS`."""
 
     ORBIT = "orbit"
     SECTION = "section"
@@ -248,7 +249,7 @@ MEANINGS: Mapping[Kind, Meaning] = {
     ),
     Kind.ROTATION: Meaning("error of the rotation number of a closed curve, in turns", "crossings", "orbits"),
     Kind.GRID: Meaning("error of ρ, in turns, if |trace| is not within 1e-2 of 2", "", "cells along a side"),
-    Kind.LINE: Meaning("as for a grid", "turns", "places"),
+    Kind.LINE: Meaning("as for a grid", "turns", "points"),
     Kind.COLOURS: Meaning("as for a grid; 256 colours resolve 4e-3", "", "cells along a side"),
     Kind.MAP: Meaning("error of θ⁺, in radians", "", "phases"),
     Kind.CURVE: Meaning("distance from the curve, in pixels, for |a| ≤ 1", "", "tori"),
@@ -365,10 +366,10 @@ PLANS: Mapping[Kind, Mapping[str, Plan]] = {
     Kind.CURVE: _plans(
         Plan(DRAFT, 0.75, cells=0.5), Plan(STANDARD, 0.25), Plan(PRECISE, 0.25), Plan(REFERENCE, 0.1, cells=2.0)
     ),
-    # The attractor of an orbit, or its chaos, needs few digits; more cells show more.
+    # Classifying an orbit needs few digits, whereas more cells show more detail.
     Kind.BASINS: _CELLS,
     Kind.INDICATOR: _CELLS,
-    # The time over which λ is averaged limits its accuracy.
+    # The averaging time limits the accuracy of λ.
     Kind.EXPONENT: _plans(
         Plan(replace(DRAFT, tolerance=1e-10, order=16), 0.05, share=0.2),
         Plan(replace(STANDARD, tolerance=1e-14, order=24), 0.02),
@@ -407,7 +408,7 @@ def plan(kind: Kind, accuracy: Accuracy) -> Plan:
 
 
 def levels_table() -> tuple[tuple[str, ...], ...]:
-    """Return the table of what each level promises and computes, a row for each kind of computation.
+    """Return the table of the promises and settings of the levels, with a row for each kind of computation.
 
     Returns
     -------
@@ -427,7 +428,7 @@ def levels_table() -> tuple[tuple[str, ...], ...]:
 
 
 def _cells(kind: Kind) -> Iterator[str]:
-    """Yield what each level means for a kind."""
+    """Yield the meaning of each level for a kind."""
     meaning = MEANINGS[kind]
     shown: dict[tuple[float, float, float], str] = {}
     for each in PLANS[kind].values():

@@ -63,7 +63,7 @@ def as_a(kind: type[T], body: object) -> T:
 
 
 def as_level(accuracy: Accuracy) -> Level:
-    """Return an accuracy level, given as it is or by its name.
+    """Return an accuracy level, given as a `Level` or by its name.
 
     Parameters
     ----------
@@ -215,7 +215,7 @@ def as_cells(cells: Any) -> tuple[int, int]:
     """
     m, n = (as_integer("cells", side, 1, _MOST_CELLS) for side in as_parts("cells", cells, 2))
     if m * n > _MOST_CELLS:
-        raise InvalidParameter(f"{m * n} cells are too many: at most {_MOST_CELLS} are allowed.")
+        raise InvalidParameter(f"{m * n} cells are too many: choose at most {_MOST_CELLS}.")
     return m, n
 
 
@@ -250,7 +250,7 @@ def as_pairs(name: str, points: Any) -> list[tuple[float, float]]:
 
 
 def as_point(names: tuple[str, ...], point: Any) -> tuple[float, ...]:
-    """Return a point with one float for each of some coordinates.
+    """Return a point as a tuple with one float per coordinate.
 
     Parameters
     ----------
@@ -275,7 +275,7 @@ def as_point(names: tuple[str, ...], point: Any) -> tuple[float, ...]:
         raise
     except (TypeError, ValueError):
         raise InvalidParameter(
-            f"{_short(point)} is not a point here: give {len(names)} numbers, {', '.join(names)}."
+            f"{_short(point)} is not a point with these coordinates: give {len(names)} numbers, {', '.join(names)}."
         ) from None
 
 
@@ -368,7 +368,7 @@ def _is_class(kind: Any) -> bool:
 
 
 def _one_of(name: str, kinds: Sequence[Any], value: Any) -> Any:
-    """Return a value as one of several annotations describes it."""
+    """Return a value converted to the first matching annotation."""
     if isinstance(value, np.ndarray) and value.ndim and any(_parts_of(kind)[0] is np.ndarray for kind in kinds):
         return _as_array(name, value)
     classes = tuple(kind for kind in kinds if _is_class(kind) and kind not in (float, int))

@@ -217,7 +217,7 @@ class Enclosure:
         return float(self.width / max(Fraction(1), abs(self.low), abs(self.high)))
 
     def __repr__(self) -> str:
-        # Python refuses to write integers of thousands of digits, which fractions near 0 have.
+        # Python refuses to print integers of thousands of digits, which fractions near 0 have.
         return "Enclosure({}, {})".format(*self.decimals())
 
     def __contains__(self, number: Fraction) -> bool:
@@ -246,7 +246,7 @@ class Enclosure:
         if digits is None:
             size = max(abs(self.low), abs(self.high))
             share = self.width / size if size else Fraction(0)
-            # A digit beyond the first that differs.
+            # Print one digit beyond the first digit in which the ends differ.
             digits = len(str(int(1 / share))) + 1 if share else max(30, len(str(self.low.denominator)) + 1)
         return _rounded(self.low, digits, ROUND_FLOOR), _rounded(self.high, digits, ROUND_CEILING)
 

@@ -34,7 +34,7 @@ def _expansion_of_lanes(recursion: Recursion) -> Callable[..., Any]:
     states = [items(f"c[k, {i}, {lane}]" for i in range(n)) for lane in range(LANES)]
     products = [items(f"q[{j}, {lane}]" for j in range(m)) for lane in range(LANES)]
     results = [f"c[k + 1, {i}, {lane}] = y{lane}[{i}] * s" for i in range(n) for lane in range(LANES)]
-    # All lanes are read before any is written, so that the compiler can vectorise the loop.
+    # Read all lanes before writing any, so that the compiler can vectorise the loop.
     return compile_source(
         f"""
 def expand(c, q, parameters, order):

@@ -54,7 +54,7 @@ def _largest_bend(e, h):
     """Return the upper bound D = Σ k(k−1)|e_k| h^(k−2) on |e″| over [0, h]."""
     even = 0.0
     odd = 0.0
-    # Finite, so that 0 times it is 0.
+    # Keep the square finite, so that 0 · square = 0.
     square = min(h * h, 1e300)
     last = e.size - 1
     if last % 2 == 0:
@@ -124,7 +124,7 @@ def roots_on_step(e, h, below, end, below_at_end, sense, roots, pieces):
             below_right = at_right < 0.0 if abs(at_right) > noise else below
         width = right - left
         rise = at_right - at_left
-        # The bound holds on [0, right] only, so that curvature near the end does not force bisections at the start.
+        # Use the bound on [0, right] only, so that curvature near the end does not force bisections at the start.
         bend = whole if right == h else _largest_bend(e, right)
         same_side = below == below_right
         if same_side:
@@ -158,16 +158,16 @@ class SurfaceKernels:
     along(c, normal, e, scratch) : writes the Taylor coefficients of e, from those of the state c[k, variable], to
         e (n,); scratch is (n,).
     height(y, normal) : returns e(y).
-    counted(y, normal) : returns True if a crossing at y counts.
-    curved : True if e is nonlinear, so that its truncated series is less accurate than those of the state.
-    shorter(e, h) : returns the largest step up to h on which e is its series.
+    is_crossing(y, normal) : returns True if a crossing at y counts.
+    is_nonlinear : True if e is nonlinear, so that its truncated series is less accurate than those of the state.
+    step_limit(e, h) : returns the largest step up to h on which e is its series.
     """
 
     along: Callable[..., Any]
     height: Callable[..., Any]
-    counted: Callable[..., Any]
-    curved: bool
-    shorter: Callable[..., Any] = _as_it_is
+    is_crossing: Callable[..., Any]
+    is_nonlinear: bool
+    step_limit: Callable[..., Any] = _as_it_is
 
 
 def plane(n: int) -> SurfaceKernels:
@@ -185,10 +185,10 @@ def along(c, normal, e, scratch):
 def height(y, normal):
     return {height("y[")}
 
-def counted(y, normal):
+def is_crossing(y, normal):
     return True
 """),
-        curved=False,
+        is_nonlinear=False,
     )
 
 
@@ -243,10 +243,10 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels | None = None)
     """
     n, columns = recursion.variables, columns_of(recursion)
     expand, evaluate, check = expansion(recursion), evaluation(n), step_check(recursion)
-    suspects, watched = step_condition(recursion), recursion.seen
+    suspects, watched = step_condition(recursion), recursion.outputs
     surface = surface or plane(n)
-    along, height, counted, curved = surface.along, surface.height, surface.counted, surface.curved
-    shorter = surface.shorter
+    along, height, is_crossing, curved = surface.along, surface.height, surface.is_crossing, surface.is_nonlinear
+    step_limit = surface.step_limit
 
     @part
     def cross(state, parameters, normal, offset, sense, end, order, tolerance, longest, max_steps, times, states):
@@ -279,7 +279,7 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels | None = None)
                 for k in range(1, order + 1, 2):
                     e[k] = -e[k]
             if steps == 0:
-                # A start on the plane must not become a crossing by round-off.
+                # Round-off must not turn a start on the plane into a crossing.
                 on_plane = abs(e[0]) <= 1e-14 * (1.0 + abs(offset))
                 below = e[0] < 0.0
                 if on_plane:
@@ -294,7 +294,7 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels | None = None)
             h = min(step_of(c, n, tolerance), most)
             if suspects(seen, h, before):
                 h = check(c, seen, h, most, direction, parameters, tolerance)
-            h = before = shorter(e, h)
+            h = before = step_limit(e, h)
             last = h >= remaining
             steps += 1
             if steps % PATIENCE == 1:
@@ -322,7 +322,7 @@ def crossing_finder(recursion: Recursion, surface: SurfaceKernels | None = None)
                         evaluate(c, s, increments)
                 for i in range(n):
                     point[i] = c[0, i] + increments[i]
-                if counted(point, normal):
+                if is_crossing(point, normal):
                     times[crossings] = t + (t_low + s)
                     states[crossings] = point
                     crossings += 1

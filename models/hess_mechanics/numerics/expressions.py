@@ -85,7 +85,7 @@ class Node:
     arguments: tuple[Node, ...]
     value: Any
     moves: bool
-    started: bool
+    uses_start: bool
 
 
 class Tape:
@@ -126,10 +126,10 @@ class Tape:
         """Return a + b, a − b, a b or a/b, simplified if an operand is 0 or 1.  Raises `NotTraceable` for a/0."""
         zero, one = self.number(0), self.number(1)
         if operation == "/" and b is zero:
-            raise NotTraceable("This field cannot be traced: it divides by 0.")
+            raise NotTraceable("This field cannot be traced: it divides by the number 0; correct the divisor.")
         if a.operation == b.operation == "number":
             value = _ARITHMETIC[operation](a.value, b.value)
-            # 1/3 stays a quotient: its double would be wrong in arithmetic with more digits.
+            # Keep 1/3 as a quotient: its double would be wrong in arithmetic with more digits.
             if value == _ARITHMETIC[operation](Fraction(a.value), Fraction(b.value)):
                 return self.number(value)
         if b is zero and operation in "+-":
@@ -141,25 +141,27 @@ class Tape:
         if b is one and operation in "*/":
             return a
         if operation == "/" and b.operation == "pow":
-            # The inverse is shared by all quotients, and needs no series product.
+            # All quotients share the inverse of a divisor, which needs no series product.
             return self.apply("*", a, self.power(b.arguments[0], self.negative(b.arguments[1])))
         if operation == "*" and a is b and a.operation == "sqrt":
             return a.arguments[0]
         if a is one and operation == "*":
             return b
-        return self._node(operation, (a, b), None, a.moves or b.moves, a.started or b.started)
+        return self._node(operation, (a, b), None, a.moves or b.moves, a.uses_start or b.uses_start)
 
     def negative(self, a: Node) -> Node:
         """Return −a."""
         if a.operation == "number":
             return self.number(-a.value)
-        return a.arguments[0] if a.operation == "negative" else self._node("negative", (a,), None, a.moves, a.started)
+        return (
+            a.arguments[0] if a.operation == "negative" else self._node("negative", (a,), None, a.moves, a.uses_start)
+        )
 
     def power(self, a: Node, exponent: Node) -> Node:
         """Return a to the power of a number or another expression."""
         n = exponent.value if exponent.operation == "number" else None
         if a.operation in ("sqrt", "pow") and isinstance(n, int):
-            # A power of a power: r³ with r = √x needs no series product.
+            # Simplify a power of a power: r³ with r = √x needs no series product.
             inner = a.arguments[1] if a.operation == "pow" else self.number(0.5)
             return self.power(a.arguments[0], self.apply("*", inner, exponent))
         if n == 0.5:
@@ -181,8 +183,8 @@ class Tape:
         if function == "carried" and arguments[0].operation in ("variable", *FUNCTIONS):
             return arguments[0]
         moves = any(argument.moves for argument in arguments)
-        # One of parameters only is computed once in each step.
-        return self._node(function, arguments, None, moves, not moves or any(one.started for one in arguments))
+        # A function of parameters only is computed once per step.
+        return self._node(function, arguments, None, moves, not moves or any(one.uses_start for one in arguments))
 
     def functions(self, results: Sequence[Node], variables: int) -> dict[Node, Node]:
         """Return the functions of the state in a field that returns these results, with their rates."""

@@ -128,7 +128,7 @@ def _evaluated(
 
 
 def _reason(node: Node, arguments: list[float], names: tuple[Sequence[str], Sequence[str]]) -> str:
-    """Return what the operation does that is not defined, as the end of a sentence."""
+    """Return the reason why the operation is undefined, as the end of a sentence."""
     texts = [_text(argument, names) for argument in node.arguments]
     if node.operation == "/" and arguments[1] == 0.0:
         return f"divides by {texts[1]}, which is 0"

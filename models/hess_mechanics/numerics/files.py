@@ -12,7 +12,7 @@ __all__ = ["write_atomically"]
 
 
 def write_atomically(path: str | Path, content: bytes, modified: float | None = None) -> None:
-    """Write a file at once: an earlier one stays as it is until the new one is complete.
+    """Write a file atomically: an earlier version stays unchanged until the new version is complete.
 
     Parameters
     ----------
@@ -28,10 +28,10 @@ def write_atomically(path: str | Path, content: bytes, modified: float | None = 
     OSError
         If the file cannot be written, for example because the disk is full; no part of it is left.
     """
-    # A link keeps pointing to its file.
+    # Write to the target of a symbolic link, which keeps the link.
     target = Path(os.path.realpath(path))
     if target.exists() and not target.is_file():
-        # A device or pipe has no earlier content to keep.
+        # A device or pipe has no previous content to protect.
         target.write_bytes(content)
         return
     part = target.with_name(f".{uuid.uuid4().hex}.part")
@@ -39,7 +39,7 @@ def write_atomically(path: str | Path, content: bytes, modified: float | None = 
         with part.open("xb") as file:
             file.write(content)
             file.flush()
-            # Some file systems report only here that the disk is full.
+            # Some file systems report a full disk only on fsync.
             os.fsync(file.fileno())
         if modified is not None:
             os.utime(part, (modified, modified))
@@ -50,6 +50,6 @@ def write_atomically(path: str | Path, content: bytes, modified: float | None = 
         with suppress(OSError):
             part.unlink()
         if isinstance(error, OSError):
-            # Without the name of the part.
+            # Name the target instead of the temporary file in the message.
             raise OSError(error.errno, error.strerror, str(path)) from None
         raise

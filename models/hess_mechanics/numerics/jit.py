@@ -31,14 +31,14 @@ from hess_mechanics.numerics.patience import check_limit
 
 __all__ = [
     "CACHE_FOLDER",
-    "announced",
+    "compile_seconds",
     "derived_kernel",
     "inner",
     "kernel",
     "part",
-    "seconds_compiling",
     "source_hash",
-    "unfused",
+    "with_compile_notice",
+    "without_fma",
 ]
 
 _OPTIONS: dict[str, Any] = {
@@ -71,7 +71,7 @@ def _is_own(folder: Path) -> bool:
     if hasattr(os, "getuid"):
         if status.st_uid != os.getuid():
             return False
-        # Others may have written files there before.
+        # Other users may have written files to a folder with these permissions.
         if status.st_mode & 0o022:
             return False
         if status.st_mode & 0o055:
@@ -101,11 +101,11 @@ def _cache_folder() -> Path | None:
     for base in filter(None, (chosen, "~/.cache")):
         try:
             folder = Path(base).expanduser() / "hess-explorer"
-        except RuntimeError:  # no home
+        except RuntimeError:  # There is no home folder.
             continue
         if _usable(folder):
             return folder
-    # In a folder shared by all users, under a name that nobody can guess and claim first.
+    # The temporary folder is shared by all users, so choose a name there that nobody can guess and claim first.
     shared = Path(tempfile.gettempdir())
     try:
         earlier = sorted(shared.glob("hess-explorer-*"))
@@ -166,7 +166,7 @@ def _sources() -> dict[str, tuple[str, list[str]]]:
             case _:
                 entries[name] = [mark, *_read(path)]
     if memory is not None and entries != known:
-        # The file only saves work.
+        # Ignore the error, because the file only saves time.
         with suppress(OSError):
             write_atomically(memory, json.dumps(entries).encode())
     return {name: (digest, imported) for name, (_, digest, imported) in entries.items()}
@@ -197,7 +197,7 @@ def _part_of(name: str) -> str:
 # ---- compilation ------------------------------------------------------------------------------------------------
 
 
-# Numba disables LLVM's SLP vectorizer; here it saves a quarter of the time.
+# Numba disables LLVM's SLP vectorizer, which saves a quarter of the time here.
 _CONFIG.SLP_VECTORIZE = 1
 
 
@@ -222,7 +222,7 @@ _CLOCK = _Clock()
 event.register("numba:compiler_lock", _CLOCK)
 
 
-def seconds_compiling() -> float:
+def compile_seconds() -> float:
     """Return the time that this thread has spent on compiling kernels or loading them from disk, in seconds."""
     return float(getattr(_CLOCK.of, "seconds", 0.0))
 
@@ -240,7 +240,7 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     folder = _folder_for(function.__module__)
     if folder is None:
         return _compiled(function, _OPTIONS)
-    # Numba reads the folder at this moment.
+    # Numba reads the folder when the kernel is created.
     before, _CONFIG.CACHE_DIR = _CONFIG.CACHE_DIR, str(folder)
     try:
         return cache_on_disk(_compiled(function, _OPTIONS), folder)
@@ -248,8 +248,8 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
         _CONFIG.CACHE_DIR = before
 
 
-def announced(function: Callable[..., Any], name: str, seconds: float) -> Callable[..., Any]:
-    """Return a kernel whose compilation, expected to take so many seconds, is announced if that is long.
+def with_compile_notice(function: Callable[..., Any], name: str, seconds: float) -> Callable[..., Any]:
+    """Return a kernel that announces its compilation if that is expected to take long.
 
     A long compilation ends between two passes of the compiler if the request is cancelled.
     """
@@ -262,7 +262,7 @@ def announced(function: Callable[..., Any], name: str, seconds: float) -> Callab
 
 
 class _LongCompilations(event.Listener):  # type: ignore[misc]  # numba has no types
-    """Logs the beginning of a long compilation, and asks between its passes whether to go on."""
+    """Logs the beginning of a long compilation, and checks for a cancellation between its passes."""
 
     def __init__(self) -> None:
         self.of = threading.local()
@@ -278,13 +278,13 @@ class _LongCompilations(event.Listener):  # type: ignore[misc]  # numba has no t
     def on_end(self, event: Any) -> None:
         if _announcement(event):
             self.of.runs = False
-        # Not `event.is_failed`, which means the opposite in some versions of Numba.
+        # `event.is_failed` means the opposite in some versions of Numba.
         if event.kind == "numba:compile" and tuple(event.data["args"]) not in event.data["dispatcher"].overloads:
             release(event.data["dispatcher"])
 
 
 def _announcement(event: Any) -> str:
-    """Return the announcement of the kernel whose compilation an event begins or ends; empty if there is none."""
+    """Return the announcement of the kernel that an event of Numba is about; empty for other events."""
     return str(getattr(event.data["dispatcher"].py_func, "announcement", "")) if event.kind == "numba:compile" else ""
 
 
@@ -308,13 +308,13 @@ def derived_kernel(name: str, source: str, module: str, **names: Any) -> Callabl
         if not is_stored:
             with suppress(OSError):
                 folder.mkdir(mode=0o700, exist_ok=True)
-                # Numba takes another modification time for another source.  The file is named by its hash, so a fixed
-                # time lets processes that write it at once share the cache.
+                # Numba recognises changed sources by the modification time.  The file is named by its hash, so a fixed
+                # time lets processes that write it simultaneously share the cache.
                 write_atomically(path, source.encode(), modified=0.0)
             is_stored = _holds(path, source)
     namespace: dict[str, Any] = {"__name__": module, **names}
     exec(compile(source, file, "exec"), namespace)
-    # Without the file there is nothing to cache.
+    # Numba caches nothing without the source file.
     return kernel(namespace[name]) if is_stored else _compiled(namespace[name], _OPTIONS)
 
 
@@ -339,7 +339,7 @@ def part(function: Callable[..., Any]) -> Callable[..., Any]:
     return _compiled(function, _ONLY_INLINED)
 
 
-def unfused(function: Callable[..., Any]) -> Callable[..., Any]:
+def without_fma(function: Callable[..., Any]) -> Callable[..., Any]:
     """Compile like `inner`, without fused operations, for arithmetic that depends on its roundings."""
     return _compiled(function, {**_INLINED, "fastmath": False})
 

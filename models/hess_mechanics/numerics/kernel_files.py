@@ -33,7 +33,7 @@ class KernelFiles(FunctionCache):  # type: ignore[misc]  # numba has no types
 
     @property
     def _lock(self) -> FileLock:
-        """The lock of the kernel in this process: one made before a fork may not be used after it."""
+        """The lock of the kernel in this process, because a lock from before a fork must not be used afterwards."""
         process = os.getpid()
         if process not in self._locks:
             self._locks[process] = FileLock(self._path, timeout=PATIENCE)
@@ -46,7 +46,7 @@ class KernelFiles(FunctionCache):  # type: ignore[misc]  # numba has no types
         """
         overload = self._read(sig, target_context)
         if overload is None:
-            # Without a lock, each process compiles it.
+            # Without a lock, each process compiles the kernel.
             with suppress(OSError, NotImplementedError, Timeout):
                 self._lock.acquire()
             overload = self._read(sig, target_context)
@@ -57,13 +57,13 @@ class KernelFiles(FunctionCache):  # type: ignore[misc]  # numba has no types
     def _read(self, sig: Any, target_context: Any) -> Any:
         try:
             overload = super().load_overload(sig, target_context)
-        # Unpickling a truncated file may raise any error.
+        # Unpickling a truncated file may raise any exception.
         except Exception:
-            # Otherwise the index would stay broken, and nothing could be added to it.
+            # Clear the index, which would otherwise stay broken and accept no new kernels.
             with suppress(OSError):
                 self.flush()
             return None
-        # A kernel compiled for other types would access arbitrary memory.
+        # Reject a kernel compiled for other types, which would access arbitrary memory.
         if overload is not None and tuple(overload.signature.args) != tuple(sigutils.normalize_signature(sig)[0]):
             return None
         return overload
@@ -89,14 +89,14 @@ def cache_on_disk(dispatcher: Any, folder: Path) -> Callable[..., Any]:
     The attribute is the one that `njit(cache=True)` sets: Numba has no public way to choose another cache class.
     """
     if not hasattr(dispatcher, "py_func"):
-        # With NUMBA_DISABLE_JIT, this is the function itself.
+        # With NUMBA_DISABLE_JIT, the dispatcher is the Python function itself.
         return dispatcher  # type: ignore[no-any-return]
     try:
         files = KernelFiles(dispatcher.py_func)
     except (OSError, RuntimeError):
-        # No writable folder: each process compiles the kernel.
+        # Without a writable folder, each process compiles the kernel.
         return dispatcher  # type: ignore[no-any-return]
-    # If that folder is not writable, Numba uses others, which may be stale or belong to someone else.
+    # If the folder is not writable, Numba uses others, which may be outdated or belong to another user.
     if Path(files.cache_path).is_relative_to(folder):
         dispatcher._cache = files
     return dispatcher  # type: ignore[no-any-return]

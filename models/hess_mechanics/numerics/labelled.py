@@ -78,7 +78,7 @@ class ShortRepr:
 
 
 def _printed(result: Any, facts: Mapping[str, Any], arrays: Sequence[str]) -> str:
-    """Return the type of a result with its facts, and a line for each of its arrays, as many as there is room for."""
+    """Return the type of a result with its facts, and a line for each array, up to the maximum number of lines."""
     words = ", ".join(f"{name} {_short(value)}" for name, value in facts.items() if str(value))
     lines = wrap(f"{type(result).__name__}: {words}", 100, max_lines=4, placeholder=" …")
     room = _LINES - len(lines)
@@ -144,7 +144,7 @@ class Result(ABC):
         sides = {name: size for names, values in both.values() for name, size in zip(names, values.shape, strict=True)}
         grid = dict(zip(dims, np.indices([sides[name] for name in dims]), strict=True))
         columns = {name: values[tuple(grid[one].ravel() for one in names)] for name, (names, values) in both.items()}
-        # If there are several dimensions, one without a coordinate gets an index.
+        # With several dimensions, a dimension without a coordinate gets an index.
         counted = {name: index.ravel() for name, index in grid.items() if name not in both and len(dims) > 1}
         frame = _needed("pandas").DataFrame({**counted, **columns})
         frame.attrs.update(known.facts)
@@ -165,7 +165,7 @@ class Result(ABC):
         InvalidParameter
             If there is nothing to draw.
         """
-        # By name, like the plotting backends of pandas: this package does not depend on a user interface.
+        # Import the backend by name, as pandas does, so that this package does not depend on a user interface.
         return importlib.import_module("hess_explorer.library.drawing").draw_result(self)
 
     def __str__(self) -> str:

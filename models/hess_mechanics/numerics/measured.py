@@ -129,8 +129,8 @@ def measured(
     level : Level
         Order and tolerance of the first run, and the promised error.
     run : callable
-        Function run(level, steps) that returns the result at a level, from a start `perturb` if `level.aside`, and the
-        number of steps; `steps` is the number of steps of all runs before.
+        Function run(level, steps) that returns the result at a level, from a start moved by `perturb` if
+        `level.is_perturbed`, and the number of steps; `steps` is the number of steps of all runs before.
     apart : callable
         Difference of two results, in the units of the promise.
 
@@ -151,7 +151,7 @@ def measured(
         safety = float(safety_of(np.array(off), np.array(error))) if 0.0 < error < math.inf else SAFETY
         error = safety * off + 2e-16
         if error <= level.promise or current.is_floor:
-            result, other = (second, first) if current.aside else (first, second)
+            result, other = (second, first) if current.is_perturbed else (first, second)
             if current.is_floor and error > UNSURE:
                 third, taken = run(current.variant(), steps)
                 steps += taken

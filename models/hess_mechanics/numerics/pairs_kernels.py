@@ -12,9 +12,9 @@ from __future__ import annotations
 
 import math
 
-from hess_mechanics.numerics.jit import unfused
+from hess_mechanics.numerics.jit import without_fma
 
-__all__ = ["DOUBLED_FUNCTIONS", "add", "divide", "multiply", "subtract"]
+__all__ = ["DOUBLE_DOUBLE_FUNCTIONS", "add", "divide", "multiply", "subtract"]
 
 _SPLITTER = 134217729.0
 """2^27 + 1: splits a double into two halves, whose products are exact."""
@@ -26,7 +26,7 @@ _ONE, _TWO = complex(1.0, 0.0), complex(2.0, 0.0)
 _HALVINGS, _EXP_TERMS, _SIN_TERMS = 6, 12, 15
 
 
-@unfused
+@without_fma
 def add(a, b):
     """Return a + b, to 31 digits of the larger operand."""
     total = a.real + b.real
@@ -37,13 +37,13 @@ def add(a, b):
     return complex(high, low - (high - total))
 
 
-@unfused
+@without_fma
 def subtract(a, b):
     """Return a − b."""
     return add(a, -b)
 
 
-@unfused
+@without_fma
 def multiply(a, b):
     """Return a · b."""
     product = a.real * b.real
@@ -59,7 +59,7 @@ def multiply(a, b):
     return complex(high, low - (high - product))
 
 
-@unfused
+@without_fma
 def divide(a, b):
     """Return a/b, by long division."""
     first = complex(a.real / b.real, 0.0)
@@ -69,7 +69,7 @@ def divide(a, b):
     return add(add(first, second), complex(left.real / b.real, 0.0))
 
 
-@unfused
+@without_fma
 def sqrt(a):
     """Return √a."""
     if not a.real > 0.0:
@@ -78,7 +78,7 @@ def sqrt(a):
     return add(first, divide(subtract(a, multiply(first, first)), multiply(_TWO, first)))
 
 
-@unfused
+@without_fma
 def exp(a):
     """Return e^a: with r = (a − k ln 2)/2⁶ from the series of e^r − 1, doubled six times."""
     k = math.floor(a.real / _LN2.real + 0.5)
@@ -93,7 +93,7 @@ def exp(a):
     return add(_ONE, total) * 2.0**k
 
 
-@unfused
+@without_fma
 def log(a):
     """Return ln a."""
     first = complex(math.log(a.real), 0.0)
@@ -102,7 +102,7 @@ def log(a):
     return add(first, subtract(multiply(a, exp(-first)), _ONE))
 
 
-@unfused
+@without_fma
 def _sine_cosine(a):
     """Return sin a and cos a, by series on |r| ≤ π/4."""
     k = math.floor(a.real / _HALF_PI.real + 0.5)
@@ -124,79 +124,79 @@ def _sine_cosine(a):
     return s, c
 
 
-@unfused
+@without_fma
 def sin(a):
     """Return sin a."""
     return _sine_cosine(a)[0]
 
 
-@unfused
+@without_fma
 def cos(a):
     """Return cos a."""
     return _sine_cosine(a)[1]
 
 
-@unfused
+@without_fma
 def tan(a):
     """Return tan a."""
     s, c = _sine_cosine(a)
     return divide(s, c)
 
 
-@unfused
+@without_fma
 def sinh(a):
     """Return sinh a, to 31 digits of cosh a."""
     e = exp(a)
     return subtract(e, divide(_ONE, e)) * 0.5
 
 
-@unfused
+@without_fma
 def cosh(a):
     """Return cosh a."""
     e = exp(a)
     return add(e, divide(_ONE, e)) * 0.5
 
 
-@unfused
+@without_fma
 def tanh(a):
     """Return tanh a = 1 − 2/(e^{2a} + 1)."""
     return subtract(_ONE, divide(_TWO, add(exp(a * 2.0), _ONE)))
 
 
-@unfused
+@without_fma
 def atan2(y, x):
-    """Return the angle of (x, y): the double, and the angle that is left after a rotation back by it."""
+    """Return the angle of (x, y) as a double, and the remaining angle after a rotation back by this double."""
     first = complex(math.atan2(y.real, x.real), 0.0)
     s, c = _sine_cosine(first)
     along, across = add(multiply(x, c), multiply(y, s)), subtract(multiply(y, c), multiply(x, s))
     return add(first, divide(across, along)) if along.real > 0.0 else first
 
 
-@unfused
+@without_fma
 def atan(a):
     """Return arctan a."""
     return atan2(a, _ONE)
 
 
-@unfused
+@without_fma
 def asin(a):
     """Return arcsin a."""
     return atan2(a, sqrt(multiply(subtract(_ONE, a), add(_ONE, a))))
 
 
-@unfused
+@without_fma
 def acos(a):
     """Return arccos a."""
     return atan2(sqrt(multiply(subtract(_ONE, a), add(_ONE, a))), a)
 
 
-@unfused
+@without_fma
 def power(a, exponent):
     """Return a to the power of an exponent."""
     return exp(multiply(exponent, log(a)))
 
 
-DOUBLED_FUNCTIONS = {
+DOUBLE_DOUBLE_FUNCTIONS = {
     "acos": acos,
     "asin": asin,
     "atan": atan,

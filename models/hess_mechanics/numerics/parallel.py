@@ -50,5 +50,5 @@ def run_in_threads(work: Callable[[int], None], count: int, threads: int = THREA
         finally:
             charge(time.thread_time() - begun)
 
-    # Each part has its own context, because two threads cannot enter the same one.
+    # Copy the context for each part, because two threads cannot enter the same one.
     list(_pool.map(lambda both: both[0].run(part, both[1]), [(copy_context(), i) for i in range(0, count, at_once)]))

@@ -35,8 +35,8 @@ class Recursion:
     pairs : indices into y of the two factors of each product.
     read : indices of the products that each stage reads, and last those that `rates` reads.
     constants : number of values that are constant during a step; they follow the parameters in p.
-    observed : number of series that the field returns after its rates.
-    watched : kinds of the series after these, on which the step depends, see `tracing.trace`.
+    observables : number of series that the field returns after its rates.
+    monitors : kinds of the series after these, on which the step depends, see `tracing.trace`.
     functions : number of functions of the state, which follow the variables in y and the rates of these.
     source : Python source of `rates(y, q, p, one)` and, if needed, of `stage0(y, q, p, one)`, … and `constants(y, p)`;
         each returns a tuple.  one : the series of the number 1, which is 1 at order 0 and 0 at all others.
@@ -51,24 +51,24 @@ class Recursion:
     read: tuple[frozenset[int], ...]
     constants: int
     source: str
-    observed: int = 0
-    watched: tuple[str, ...] = ()
+    observables: int = 0
+    monitors: tuple[str, ...] = ()
     functions: int = 0
 
     @property
-    def moving(self) -> int:
+    def dimension(self) -> int:
         """Number of series with a rate: variables and functions."""
         return self.variables + self.functions
 
     @property
-    def seen(self) -> int:
+    def outputs(self) -> int:
         """Number of series that are observed or watched."""
-        return self.observed + len(self.watched)
+        return self.observables + len(self.monitors)
 
     @property
-    def known(self) -> list[int]:
+    def stage_starts(self) -> list[int]:
         """Number of series known before the first stage and after each stage; those with a rate come first."""
-        return [self.moving + sum(self.stages[:i]) for i in range(len(self.stages) + 1)]
+        return [self.dimension + sum(self.stages[:i]) for i in range(len(self.stages) + 1)]
 
     @property
     def is_quadratic(self) -> bool:
@@ -82,12 +82,12 @@ class Series:
     def __init__(self, tape: Tape, variables: int, functions: Sequence[Node], multiplies_out: bool) -> None:
         self._tape, self._multiplies_out = tape, multiplies_out
         self._functions = {node: variables + i for i, node in enumerate(functions)}
-        self._variables = variables + len(functions)  # all series with a rate
+        self._variables = variables + len(functions)  # Number of series with a rate.
         self._one = tape.linear("one")
         self._lowered: dict[Node, Node] = {}
-        self._rules: list[Node] = []  # of the auxiliary series
+        self._rules: list[Node] = []  # Rules of the auxiliary series.
         self._places: dict[Node, int] = {}
-        self._divided: set[Node] = set()  # the products d·z of the quotients
+        self._divided: set[Node] = set()  # Products d·z of the quotients.
 
     def lower(self, node: Node) -> Node:
         """Return the node as a sum of series and products with constant factors."""
@@ -181,7 +181,7 @@ class Series:
         return levels
 
     def recursion(self, rates: Sequence[Node], parameters: int, watched: tuple[str, ...] = ()) -> Recursion:
-        """Return the recursion of a field with these rates, of which the last ones are `watched`."""
+        """Return the recursion of a field with these rates, of which the last are the `monitors`."""
         forms = [self.lower(rate) for rate in rates]
         # Keep only the series that the rates need: an unused intermediate result costs nothing.
         used = self._used(forms)
@@ -196,7 +196,7 @@ class Series:
         factors = [
             node
             for node in dict.fromkeys(node.arguments[0] for node in everything if node.operation == "scaled")
-            if node.started
+            if node.uses_start
         ]
 
         names: dict[Node, str] = {}

@@ -1,4 +1,4 @@
-"""Result types: frozen, with read-only arrays, an error estimate and the cost."""
+"""Result types: immutable, with read-only arrays, an error estimate and the cost."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ __all__ = [
     "SectionCrossings",
     "angle_convention",
     "angle_facts",
+    "as_read_only",
     "facts_of",
-    "frozen",
     "unit_of",
 ]
 
@@ -35,7 +35,7 @@ Mask = NDArray[np.bool_]
 _Item = TypeVar("_Item", bound=np.generic)
 
 
-def frozen(array: NDArray[_Item]) -> NDArray[_Item]:
+def as_read_only(array: NDArray[_Item]) -> NDArray[_Item]:
     """Return the same array, made read-only, because results are cached and shared between sessions.
 
     Parameters

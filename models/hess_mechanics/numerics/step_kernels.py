@@ -1,5 +1,5 @@
 # mypy: allow-untyped-defs
-"""Length of a Taylor step, from the last terms of the series; checked where these may miss a change ahead.
+"""Length of a Taylor step, from the last terms of the series; checked where these terms may miss a change ahead.
 
 Not for users.  The last terms of a series bound its error only if the terms after them fall as well.  They need not:
 the series of τ⁴⁰ at 0 ends before it begins, tanh(x) rounds to 1 and stays constant whatever x does later, x/√(x²) is 1
@@ -63,7 +63,7 @@ def parts(recursion: Recursion) -> dict[str, Callable[..., Any]]:
 @cache
 def step_condition(recursion: Recursion) -> Callable[..., Any]:
     """Return the compiled suspects(seen, h, before): True if a step h after the step `before` must be checked."""
-    divisors = range(recursion.observed, recursion.seen)
+    divisors = range(recursion.observables, recursion.outputs)
     # Three orders are enough: if a divisor changes by higher ones alone, the first step has been checked.
     changes = [
         f"((abs(seen[3, {i}]) * h + abs(seen[2, {i}])) * h + abs(seen[1, {i}])) * h > {_RESOLVED!r} * abs(seen[0, {i}])"
@@ -167,7 +167,7 @@ def _within(seen, i, h, allowed):
 
 @inner
 def _zero_ahead(seen, i, direction):
-    """Return the distance of the next zero of a watched divisor; ∞ if there is none that Newton's method finds."""
+    """Return the distance of the next zero of a divisor; ∞ if Newton's method finds none."""
     s = 0.0
     for _ in range(5):
         value = 0.0
@@ -182,7 +182,7 @@ def _zero_ahead(seen, i, direction):
 
 
 _ALLOWED = {
-    # e^x is 0 below −745: until there x may change at will.
+    # e^x is 0 below −745, so x may vary freely there.
     "exp": "max(8.0, -745.0 - seen[0, {i}])",
     # tanh x rounds to ±1 beyond 19.
     "tanh": "max(4.0, abs(seen[0, {i}]) - 20.0)",
@@ -203,10 +203,10 @@ def step_check(recursion: Recursion) -> Callable[..., Any]:
     seen : the series that are observed and watched, see `taylor_kernels.expansion`.
     """
     each = range(recursion.variables)
-    watched = [(recursion.observed + j, kind) for j, kind in enumerate(recursion.watched)]
+    watched = [(recursion.observables + j, kind) for j, kind in enumerate(recursion.monitors)]
     extended = "y + started(y, p)" if recursion.functions else "y"
-    # In a polynomial field p′ − f(p) is s^order times a polynomial, which no inner point shows better than the end.
-    points = 2 if recursion.functions or recursion.watched else 1
+    # For a polynomial field p′ − f(p) is s^order times a polynomial, so the end of the step is the best test point.
+    points = 2 if recursion.functions or recursion.monitors else 1
     compare = compile_source(
         f"""
 def compare(c, h, parameters):

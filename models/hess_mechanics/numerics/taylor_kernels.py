@@ -64,9 +64,9 @@ def expansion_source(recursion: Recursion) -> str:
 
     Every coefficient has a name, z0, z1, … at order 0 and y0, y1, … at order k: Numba takes longer for items of tuples.
     """
-    pairs, known = recursion.pairs, recursion.known
-    variables, moving = range(recursion.variables), range(recursion.moving)
-    observed = range(recursion.seen)
+    pairs, known = recursion.pairs, recursion.stage_starts
+    variables, moving = range(recursion.variables), range(recursion.dimension)
+    observed = range(recursion.outputs)
 
     def names(letter: str, end: int, start: int = 0) -> str:
         return "".join(f"{letter}{i}, " for i in range(start, end))
@@ -108,11 +108,11 @@ def expansion_source(recursion: Recursion) -> str:
         )
 
     def rates(letter: str, one: str, products: Callable[[int], str]) -> str:
-        targets = names("rate", recursion.moving + len(observed))
+        targets = names("rate", recursion.dimension + len(observed))
         return f"{targets}= rates(({all_of(letter, known[-1])}), ({products(len(recursion.stages))}), p, {one})"
 
     def seen(order: str) -> str:
-        return "; ".join(f"seen[{order}, {i}] = rate{recursion.moving + i}" for i in observed) or "pass"
+        return "; ".join(f"seen[{order}, {i}] = rate{recursion.dimension + i}" for i in observed) or "pass"
 
     start = all_of("z", recursion.variables)
     return f"""
@@ -121,14 +121,14 @@ def expand(c, left, right, inverses, parameters, seen):
     {"; ".join(f"z{i} = c[0, {i}]" for i in variables)}
     {f"{names('z', len(moving), len(variables))}= started(({start}), p)" if recursion.functions else "pass"}
     {f"p = p + constants(({all_of('z', len(moving))}), p)" if recursion.constants else "pass"}
-    {keep("0", "z", 0, recursion.moving)}
+    {keep("0", "z", 0, recursion.dimension)}
     if True:{stages("0", "z", "1.0", first_products) or " pass"}
     {rates("z", "1.0", first_products)}
     {"; ".join(f"c[1, {i}] = rate{i}" for i in variables)}
     {seen("0")}
     {"; ".join(f"y{i} = rate{i}" for i in moving)}
     for k in range(1, inverses.size):
-        {keep("k", "y", 0, recursion.moving)}
+        {keep("k", "y", 0, recursion.dimension)}
         {names("s", columns_of(recursion))}= convolve(left, right, k){stages("k", "y", "0.0", products)}
         {rates("y", "0.0", products)}
         {seen("k")}
@@ -198,7 +198,7 @@ def orbit_integrator(recursion: Recursion) -> Callable[..., Any]:
     """
     n, columns = recursion.variables, columns_of(recursion)
     expand, evaluate, check = expansion(recursion), evaluation(n), step_check(recursion)
-    suspects, watched = step_condition(recursion), recursion.seen
+    suspects, watched = step_condition(recursion), recursion.outputs
 
     @part
     def integrate(state, parameters, times, order, tolerance, longest, max_steps, out):

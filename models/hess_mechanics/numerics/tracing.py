@@ -93,7 +93,7 @@ def derivative(x: Any, y: Symbol) -> Any:
     return 0 if node is x.tape.number(0) else Symbol(x.tape, node)
 
 
-def trace(field: Field, variables: int, parameters: int, observed: int = 0) -> Recursion:
+def trace(field: Field, variables: int, parameters: int, observables: int = 0) -> Recursion:
     """Return the Taylor recursion of a field.
 
     Parameters
@@ -104,7 +104,7 @@ def trace(field: Field, variables: int, parameters: int, observed: int = 0) -> R
         Number of variables y.
     parameters : int
         Number of parameters p.
-    observed : int, default 0
+    observables : int, default 0
         Number of expressions that the field returns after its rates.
 
     Returns
@@ -117,7 +117,7 @@ def trace(field: Field, variables: int, parameters: int, observed: int = 0) -> R
     NotTraceable
         If the field uses anything but arithmetic and `FUNCTIONS`.
     """
-    tape, results = _record(field, variables, parameters, observed)
+    tape, results = _record(field, variables, parameters, observables)
     functions = tape.functions(results, variables)
     watched = [(node.operation, node.arguments[0]) for node in functions if node.operation in _SATURATED]
     quotients = [
@@ -212,7 +212,7 @@ def check(field: Field, variables: int, parameters: int) -> None:
     _record(field, variables, parameters, 0)
 
 
-def _record(field: Field, variables: int, parameters: int, observed: int) -> tuple[Tape, list[Node]]:
+def _record(field: Field, variables: int, parameters: int, observables: int) -> tuple[Tape, list[Node]]:
     """Return the tape of a field, and the nodes that it returns."""
     tape = Tape()
     y = tuple(Symbol(tape, tape.leaf("variable", i)) for i in range(variables))
@@ -228,13 +228,13 @@ def _record(field: Field, variables: int, parameters: int, observed: int) -> tup
         raise
     except IndexError as error:
         raise NotTraceable(
-            f"This field reads beyond its {variables} variables y[0], … or its {parameters} parameters p[0], …; the "
-            "first index is 0."
+            f"This field reads beyond its {variables} variables y[0], … or its {parameters} parameters p[0], …: count "
+            "the indices from 0."
         ) from error
     except (TypeError, ValueError, AttributeError, ArithmeticError, LookupError) as error:
         raise NotTraceable(f"This field cannot be traced: {error}. {ALLOWED}") from error
-    if len(rates) != variables + observed:
+    if len(rates) != variables + observables:
         raise NotTraceable(
-            f"This field has {variables} variables and returns {len(rates) - observed} rates: return one for each."
+            f"This field has {variables} variables and returns {len(rates) - observables} rates: return one for each."
         )
     return tape, rates

@@ -48,12 +48,13 @@ class Variation:
     """A field with its Jacobian.
 
     recursion : recursion of the field, extended by the nonzero entries of J and, last, the divergence tr J.
-    moving, fixed : rows and columns of the entries, in this order; fixed entries depend on parameters only.
+    state_entries, constant_entries : rows and columns of the entries that depend on the state, and of those that depend
+        on parameters only, in this order.
     """
 
     recursion: Recursion
-    moving: tuple[tuple[int, int], ...]
-    fixed: tuple[tuple[int, int], ...]
+    state_entries: tuple[tuple[int, int], ...]
+    constant_entries: tuple[tuple[int, int], ...]
 
 
 def variation(field: Field, variables: int, parameters: int) -> Variation:
@@ -79,40 +80,40 @@ def variation(field: Field, variables: int, parameters: int) -> Variation:
 
 
 def _lanes(columns: int) -> int:
-    """Return the length of a row of V, padded to a multiple of four unless it is one."""
+    """Return the length of a row of V, padded to a multiple of four unless the length is 1."""
     return 1 if columns == 1 else columns + -columns % 4
 
 
 def products(of: Variation, columns: int) -> int:
     """Return the number of products in the source of the kernel, which its compile time depends on."""
-    entries = len(of.moving) + len(of.fixed)
+    entries = len(of.state_entries) + len(of.constant_entries)
     lanes = _lanes(columns)
-    return len(of.recursion.pairs) + len(of.moving) * (1 if lanes * entries > _WRITTEN_OUT else lanes)
+    return len(of.recursion.pairs) + len(of.state_entries) * (1 if lanes * entries > _WRITTEN_OUT else lanes)
 
 
 def _carrying_source(of: Variation, lanes: int) -> str:
     """Return the source of carry(seen, v, inverses), which computes v[1 … order, row, lane] from v[0] and J."""
     n = of.recursion.variables
-    entries = [*of.moving, *of.fixed]
+    entries = [*of.state_entries, *of.constant_entries]
     is_long = lanes * len(entries) > _WRITTEN_OUT
     each: Sequence[int | str] = ("lane",) if is_long else range(lanes)
 
     def sums(row: int) -> tuple[str, ...]:
         """Return two partial sums for a row with many terms, so that additions overlap."""
-        return ("s", "t") if sum(i == row for i, _ in of.moving) > 2 else ("s",)
+        return ("s", "t") if sum(i == row for i, _ in of.state_entries) > 2 else ("s",)
 
-    beginnings, used = [], {j for _, j in of.moving}
+    beginnings, used = [], {j for _, j in of.state_entries}
     for row in range(n):
         for lane in each:
             terms = [
                 f"seen[0, {e}] * v[k, {j}, {lane}]"
                 for e, (i, j) in enumerate(entries)
-                if i == row and e >= len(of.moving)
+                if i == row and e >= len(of.state_entries)
             ]
             beginnings.append(f"s{row}_{lane} = {' + '.join(terms) or '0.0'}")
             beginnings += [f"t{row}_{lane} = 0.0"] if len(sums(row)) > 1 else []
     products, counted = [], dict.fromkeys(range(n), 0)
-    for e, (i, j) in enumerate(of.moving):
+    for e, (i, j) in enumerate(of.state_entries):
         names = sums(i)
         name = names[counted[i] % len(names)]
         counted[i] += 1
@@ -126,7 +127,7 @@ def _carrying_source(of: Variation, lanes: int) -> str:
     body = f"""
         {newline.join(beginnings)}
         for m in range(k, -1, -1):
-            {"; ".join(f"a{e} = seen[m, {e}]" for e in range(len(of.moving))) or "pass"}
+            {"; ".join(f"a{e} = seen[m, {e}]" for e in range(len(of.state_entries))) or "pass"}
             {"; ".join(f"x{j}_{lane} = v[k - m, {j}, {lane}]" for j in sorted(used) for lane in each) or "pass"}
             {(newline + "    ").join(products) or "pass"}
         {newline.join(ends)}
@@ -220,8 +221,8 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
     removed before each time.
     """
     recursion = of.recursion
-    n, width, lanes, last_seen = recursion.variables, columns_of(recursion), _lanes(columns), recursion.observed - 1
-    watched = recursion.seen
+    n, width, lanes, last_seen = recursion.variables, columns_of(recursion), _lanes(columns), recursion.observables - 1
+    watched = recursion.outputs
     expand, evaluate, check = expansion(recursion), evaluation(n), step_check(recursion)
     suspects = step_condition(recursion)
     carry = compile_source(_carrying_source(of, lanes))["carry"]
@@ -263,7 +264,7 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
                 rise = np.log(speed) if ahead else 0.0
                 if steps == 0:
                     speed_then = rise
-                # The column f(y) counts with length 1.
+                # Count the column f(y) with length 1.
                 if _is_bent(v[0], n, columns, known, (volume - volume_then) - (rise - speed_then), limit):
                     _orthonormalised(v[0], c[1], speed, n, columns, grown)
                     speed_then, volume_then = rise, volume

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, as_read_only
 from hess_mechanics.rigid_body.attitude_kernels import carry, rotate
 
 __all__ = ["Attitude", "attitude_along", "contact_arc", "orthonormal", "second_directions"]
@@ -55,12 +55,12 @@ class Attitude:
             The attitude at these times.
         """
         samples = [*range(0, len(self.times) - 1, 2), len(self.times) - 1]
-        return replace(self, times=frozen(self.times[samples]), axes=frozen(self.axes[samples]))
+        return replace(self, times=as_read_only(self.times[samples]), axes=as_read_only(self.axes[samples]))
 
 
 TURN = 0.1
 """Largest rotation, in radians, from one sample of `attitude_along` to the next, unless the orbit rotates faster."""
-MOST_TURNS = 4000
+MAX_TURNS = 4000
 """Largest number of samples, besides those of the orbit."""
 
 
@@ -92,12 +92,12 @@ def attitude_along(times: Array, omega: Array, gamma: Array) -> Attitude:
     defect = float(np.max(np.abs(moved - g[1:]), initial=0.0))
     # Sample the total rotation in steps of TURN; the small term avoids a division by 0 for a body at rest.
     total = np.concatenate([[0.0], np.cumsum(length + 1e-12)])
-    at = np.linspace(0.0, total[-1], max(2, int(min(MOST_TURNS, np.ceil(total[-1] / TURN))) + 1))
+    at = np.linspace(0.0, total[-1], max(2, int(min(MAX_TURNS, np.ceil(total[-1] / TURN))) + 1))
     i = np.clip(np.searchsorted(total, at, side="right") - 1, 0, len(step) - 1)
     share = (at - total[i]) / (total[i + 1] - total[i])
     g, e = (_rotated(one[i], share[:, None] * v[i]) for one in (g, e))
     axes = np.stack([g, e, np.cross(g, e)], axis=1)
-    return Attitude(frozen(times[i] + share * step[i]), frozen(axes), defect)
+    return Attitude(as_read_only(times[i] + share * step[i]), as_read_only(axes), defect)
 
 
 def second_directions(times: Array, omega: Array, gamma: Array) -> Array:
@@ -145,7 +145,7 @@ def contact_arc(axes: Array, at: Sequence[float] | Array, e: Sequence[float] | A
     length = np.linalg.norm(sine, axis=1)
     angle = np.arctan2(length, 0.5 * (np.trace(steps, axis1=1, axis2=2) - 1.0))
     arcs = angle / np.maximum(length, 1e-300) * (sine @ np.cross(at, e))
-    return frozen(np.concatenate([[0.0], np.cumsum(arcs)]))
+    return as_read_only(np.concatenate([[0.0], np.cumsum(arcs)]))
 
 
 def _carried(times: Array, omega: Array, gamma: Array) -> tuple[Array, Array, Array]:

@@ -94,7 +94,7 @@ def carry(times, omega, gamma, e, v, moved):
     n, m, _ = gamma.shape
     for i in range(n):
         w0 = s0 = g = (0.0, 0.0, 0.0)
-        # The axis of the smallest component of γ.
+        # Start from the axis of the smallest component of γ, which is farthest from γ.
         x, y, z = abs(gamma[i, 0, 0]), abs(gamma[i, 0, 1]), abs(gamma[i, 0, 2])
         there = (
             1.0 if x <= y and x <= z else 0.0,

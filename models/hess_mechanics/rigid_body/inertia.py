@@ -13,7 +13,7 @@ import numpy as np
 
 from hess_mechanics.errors import InvalidParameter, NotPositiveDefinite
 from hess_mechanics.numerics.arguments import as_number
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, as_read_only
 from hess_mechanics.parameters import plain
 
 __all__ = [
@@ -176,10 +176,10 @@ def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
     require_positive_definite(I11, I22)
     scale = max(I11, I22)
     s, d = (I11 + I22) / (2 * scale), (I11 - I22) / (2 * scale)
-    # Beyond 2 there is no rigid body anyway; the bound keeps the squares in range.
+    # Ratios beyond 2 exclude a rigid body; the bound keeps the squares finite.
     p, q = min(abs(I23) / scale, 2.0) ** 2, min(abs(I13) / scale, 2.0) ** 2
 
-    # Imported here because it takes 0.3 s, and the Hess case has a closed form.
+    # Imported here because the import takes 0.3 s, and the Hess case has a closed form.
     from scipy.optimize import brentq
 
     def g(y: float) -> float:
@@ -188,7 +188,7 @@ def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
     def slope(y: float) -> float:
         return -1.0 + (p / (y + d) ** 2 if p else 0.0) + (q / (y - d) ** 2 if q else 0.0)
 
-    low = abs(d) * (1 + 1e-15) + 1e-150  # clear of the poles, and its square of underflow
+    low = abs(d) * (1 + 1e-15) + 1e-150  # Keep the bracket away from the poles, and its square from underflow.
     top = low if slope(low) <= 0 else brentq(slope, low, low + 2 * (math.sqrt(p) + math.sqrt(q)), **_SEARCH)
     if not g(top) > 1e-15 * s:
         return body_check(None)
@@ -225,4 +225,4 @@ def paired_weights(moments: Array, arms: Array, centre: Array | None = None) -> 
     # The lighter weight of a pair keeps at least half of the mean.
     used = np.abs(unequal) > 1e-9 * np.max(np.abs(unequal))
     share = 0.5 * float(np.min(mean[used] / np.abs(unequal[used]), initial=math.inf)) if used.any() else 0.0
-    return frozen(np.stack([mean + share * unequal, mean - share * unequal], axis=1))
+    return as_read_only(np.stack([mean + share * unequal, mean - share * unequal], axis=1))

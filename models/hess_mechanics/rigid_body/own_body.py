@@ -69,7 +69,8 @@ class Polynomial:
             )
         if len(self.exponents) != len(self.coefficients) or len(self.exponents) > _TERMS:
             raise InvalidParameter(
-                f"{len(self.exponents)} terms, {len(self.coefficients)} coefficients: give as many, at most {_TERMS}."
+                f"There are {len(self.exponents)} terms and {len(self.coefficients)} coefficients: give one "
+                f"coefficient for each term, and at most {_TERMS} terms."
             )
         for one in self.exponents:
             if sum(as_integer("An exponent", n, 0, _DEGREE) for n in as_parts("A term", one, 3)) > _DEGREE:

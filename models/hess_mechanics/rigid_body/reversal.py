@@ -22,7 +22,7 @@ from hess_mechanics.rigid_body.reversal_kernels import NO_TURN
 __all__ = ["Reversal", "rate", "reversals"]
 
 _VARIABLES = ("ω1", "ω2", "γ1", "γ2", "γ3")
-MOST = 5000
+MAX_REVERSALS = 5000
 """Largest number of reversals of one motion."""
 
 
@@ -80,7 +80,7 @@ class Reversal:
 
 @cache
 def _cross(system: System) -> Callable[..., Any]:
-    return system.crosses("turn", NO_TURN)
+    return system.surface_kernel("turn", NO_TURN)
 
 
 def rate(states: Array) -> Array:
@@ -125,4 +125,4 @@ def reversals(body: Body, start: Sequence[float], duration: float, accuracy: Acc
     WorkLimit
         If the motion needs too many steps.
     """
-    return section(body, start, Reversal(), duration, accuracy, MOST)
+    return section(body, start, Reversal(), duration, accuracy, MAX_REVERSALS)

@@ -29,5 +29,5 @@ def _any_side(y, normal):
     return True
 
 
-NO_TURN = SurfaceKernels(_along, _height, _any_side, curved=True)
+NO_TURN = SurfaceKernels(_along, _height, _any_side, is_nonlinear=True)
 """The surface (ω, γ) = 0."""

@@ -111,7 +111,7 @@ class Coefficients:
         Degree in ω, odd, 1 to 15.
     a, b, c : tuple of Fraction, length (k + 1)/2
         Coefficients of V1, V2 and V3, see the module.
-    rest : Fraction
+    remainder : Fraction
         The coefficient a_n, n = (k + 1)/2; it is 0 if F2 is conserved.
     """
 
@@ -119,7 +119,7 @@ class Coefficients:
     a: tuple[Fraction, ...]
     b: tuple[Fraction, ...]
     c: tuple[Fraction, ...]
-    rest: Fraction
+    remainder: Fraction
 
 
 @lru_cache(maxsize=64)
@@ -157,7 +157,7 @@ def coefficients(k: int, I22: Fraction | float, I23: Fraction | float) -> Coeffi
     for j in range(n):
         odd, back = 2 * j + 1, (k + 1 - 2 * j) * I23 / I11
         below_b, below_c = (b[j - 1], c[j - 1]) if j else (Fraction(0), Fraction(0))
-        # c_j = odd x b_j − back b_(j−1) in a_j = b_j + odd x c_j − back c_(j−1)
+        # a_j = b_j + odd x c_j − back c_(j−1) and c_j = odd x b_j − back b_(j−1).
         if j:
             b.append((a[j] + odd * x * back * below_b + back * below_c) / (1 + (odd * x) ** 2))
             c.append(Fraction(0))
@@ -175,7 +175,7 @@ class AdditionalIntegral:
     ----------
     k : int
         Degree in ω.
-    permuted : bool
+    swaps_axes : bool
         True for case 2 of `eq834` (I23 = 0).
     a : ndarray of float, shape ((k + 1)/2,)
         Coefficients of V1, in case 2 those of the permuted body.
@@ -188,7 +188,7 @@ class AdditionalIntegral:
     """
 
     k: int
-    permuted: bool
+    swaps_axes: bool
     a: Array
     b: Array
     c: Array
@@ -208,12 +208,12 @@ class AdditionalIntegral:
             The vectors V.
         """
         omega = np.asarray(omega, float)
-        w1, w2 = (omega[..., 1], omega[..., 0]) if self.permuted else (omega[..., 0], omega[..., 1])
+        w1, w2 = (omega[..., 1], omega[..., 0]) if self.swaps_axes else (omega[..., 0], omega[..., 1])
         j = np.arange(self.a.size)
         odd = w1[..., None] ** (self.k - 2 * j) * w2[..., None] ** (2 * j)
         even = w1[..., None] ** (self.k - 1 - 2 * j) * w2[..., None] ** (2 * j + 1)
         v1, v2, v3 = odd @ self.a, even @ self.b, even @ self.c
-        return np.stack([v2, v1, -v3] if self.permuted else [v1, v2, v3], axis=-1)
+        return np.stack([v2, v1, -v3] if self.swaps_axes else [v1, v2, v3], axis=-1)
 
     def circle(self, omega: Array, level: float) -> tuple[Array, float]:
         """Return the circle of all γ with F2 = level at one ω.

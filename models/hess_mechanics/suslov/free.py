@@ -36,7 +36,7 @@ from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
 from hess_mechanics.numerics.arguments import as_level, as_point, unit_vector
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.measured import measured, perturb
-from hess_mechanics.numerics.results import Array, Complex, Cost, facts_of, frozen, unit_of
+from hess_mechanics.numerics.results import Array, Complex, Cost, as_read_only, facts_of, unit_of
 from hess_mechanics.parameters import plain
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov import additional_integral
@@ -176,7 +176,9 @@ def shape(body: SuslovBody) -> PassageConstants:
             f"γ turns too often while ω passes from the unstable to the stable point ({about} radians; at most "
             f"{_MAX_SHAPE:g} are computed): choose larger I13, I23, or more similar I11 and I22."
         )
-    return PassageConstants(frozen(np.array([n2, -n1, 0.0])), frozen(np.array([n1, n2, 0.0])), J, w, K, kappa, c)
+    return PassageConstants(
+        as_read_only(np.array([n2, -n1, 0.0])), as_read_only(np.array([n1, n2, 0.0])), J, w, K, kappa, c
+    )
 
 
 @dataclass(frozen=True)
@@ -278,7 +280,7 @@ def equilibria(body: SuslovBody, h: float) -> Equilibria:
     of, r = shape(body), _radius(h)
     speed = r / math.sqrt(of.w)
     point = speed * of.xi[:2]
-    return Equilibria(frozen(-point), frozen(point), of.xi, speed, _rate(body, of, r), h)
+    return Equilibria(as_read_only(-point), as_read_only(point), of.xi, speed, _rate(body, of, r), h)
 
 
 def _radius(h: float) -> float:
@@ -339,7 +341,7 @@ def arcs(body: SuslovBody, h: float, count: int = 91) -> tuple[Array, Array]:
     of, r = shape(body), _radius(h)
     beta = np.linspace(-0.5 * math.pi, 0.5 * math.pi, count)
     rate, sin, cos = _rate(body, of, r), np.sin(beta), np.cos(beta)
-    return frozen(rate * _omega(of, 1, sin, cos)), frozen(rate * _omega(of, -1, sin, cos))
+    return as_read_only(rate * _omega(of, 1, sin, cos)), as_read_only(rate * _omega(of, -1, sin, cos))
 
 
 def _omega(of: PassageConstants, arc: int, tanh: Array, sech: Array) -> Array:
@@ -420,7 +422,7 @@ def passage(body: SuslovBody, omega: Sequence[float]) -> Passage:
     r = math.hypot(math.sqrt(body.I11) * w1, math.sqrt(body.I22) * w2)
     if r == 0.0:
         raise InvalidParameter("ω = 0: the body is at rest for ever, h = 0. Choose a nonzero ω1 or ω2.")
-    # Exact arithmetic, because close to the line of equilibria the two products nearly cancel.
+    # Use exact arithmetic, because the two products nearly cancel close to the line of equilibria.
     s = Fraction(body.I13) * Fraction(w1) + Fraction(body.I23) * Fraction(w2)
     if s == 0:
         raise InvalidParameter(
@@ -484,7 +486,7 @@ def transfer(of: PassageConstants, arc: int, u: Array, accuracy: Accuracy) -> tu
     first, p = np.array([0.0, 1.0, arc * of.kappa, 0.0, 1.0, 0.0, 0.0, 0.0]), np.array([of.K, arc * of.c])
 
     def run(at: Level, _: int) -> tuple[tuple[Complex, Complex], int]:
-        start = perturb(first) if at.aside else first
+        start = perturb(first) if at.is_perturbed else first
         out, total = np.empty((u.size, 8)), 0
         for side in (inside >= 0.0, inside < 0.0):
             index = np.flatnonzero(side)
@@ -501,7 +503,7 @@ def transfer(of: PassageConstants, arc: int, u: Array, accuracy: Accuracy) -> tu
         return (out[:, 4] + 1j * out[:, 5], out[:, 6] + 1j * out[:, 7]), total
 
     def apart(one: tuple[Complex, Complex], other: tuple[Complex, Complex]) -> float:
-        # Factor 4: a rotation is quadratic in A and B, and both its ends have errors.
+        # The factor 4 covers the errors of both ends of a rotation, which is quadratic in A and B.
         return 4.0 * float((np.abs(one[0] - other[0]) + np.abs(one[1] - other[1])).max())
 
     result = measured(level, run, apart)
@@ -541,15 +543,15 @@ def rotation(motion: Passage, elapsed: Array, accuracy: Accuracy) -> tuple[Array
     of, arc, u0 = motion.shape, motion.arc, motion.u0
     u = u0 + elapsed
     A, B, error, steps = transfer(of, arc, np.concatenate([[u0, -of.end, of.end], u]), accuracy)
-    # From the rotating frame to that of the body.
+    # Transform from the rotating frame to that of the body.
     before = float(of.angle(u0, arc))
     outside = -of.K * (_elapsed_size(u0, u, elapsed) + _tail(u) - _tail(u0)) + arc * of.c * (_gd(u) - _gd(u0))
     axes = np.column_stack([of.eta, [0.0, 0.0, 1.0], of.xi])
     limits = _gamma_row(A[1:3], B[1:3] * np.exp(1j * before)) @ axes.T
-    # The factor of A and that of B cancel exactly in Γ, which contains AB, however large the angle.
+    # Γ contains the product AB, so the factors of A and B cancel exactly, however large the angle.
     half = np.exp(-0.5j * outside)
     A, B = A[3:] * half, B[3:] * half.conj() * np.exp(1j * before)
-    # Errors of the data: ω0, K and u0 are known to a few units in the last place.
+    # The data ω0, K and u0 are accurate to a few units in the last place.
     error += 1e-15 * of.K * float(np.max(np.abs(elapsed), initial=0.0)) + 3e-16 * abs(u0) * (1.0 + of.size)
     return axes @ _matrices(A, B) @ axes.T, limits, min(error, 2.0), steps
 
@@ -707,11 +709,11 @@ def free_motion(
         raise InvalidParameter("The energy exceeds the range of double precision: choose a less extreme ω.")
     left, joined = np.clip(limits @ np.array(unit), -1.0, 1.0).tolist()
     return FreeMotion(
-        frozen(t),
-        frozen(velocity),
-        frozen(gammas),
-        frozen(gammas @ of.xi),
-        frozen(np.arctan2(gammas[:, 2], gammas @ of.eta)),
+        as_read_only(t),
+        as_read_only(velocity),
+        as_read_only(gammas),
+        as_read_only(gammas @ of.xi),
+        as_read_only(np.arctan2(gammas[:, 2], gammas @ of.eta)),
         (left, joined),
         level.name,
         level.status(error),
@@ -768,7 +770,7 @@ def sample_times(
     first_u, last_u = sorted((motion.u0, motion.u0 + length))
     knots = np.clip(np.linspace(-_UNIFORM, _UNIFORM, 801), first_u, last_u)
     u = np.unique(np.concatenate([[motion.u0, motion.u0 + length], knots]))
-    if u.size == 1:  # u changes by less than round-off
+    if u.size == 1:  # Stop when u changes by less than round-off.
         return np.linspace(0.0, duration, min(most, 17))
     tanh, sech = np.tanh(u), _sech(u)
     speed = np.linalg.norm(_omega(of, motion.arc, tanh, sech), axis=1)

@@ -28,7 +28,7 @@ from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.arguments import as_point
-from hess_mechanics.numerics.results import Array, Orbit, frozen
+from hess_mechanics.numerics.results import Array, Orbit, as_read_only
 from hess_mechanics.suslov.equations import SYSTEM
 from hess_mechanics.suslov.kharlamova_kernels import arcs
 from hess_mechanics.suslov.plane_potential import MOST_SAMPLES, PlaneProblem, closure_error
@@ -295,7 +295,7 @@ def rescaled_time(arc: Arc, states: Array) -> Array:
         Times τ.
     """
     v, unit = np.column_stack([-states[:, 1], states[:, 0]]), arc.rate or 1.0
-    # Both in units in which ν is 1.
+    # Scale both equations to units in which ν is 1.
     slope = np.hstack([0.5 * (v + arc.v0) / unit, np.broadcast_to(arc.a / unit**2, v.shape)])
     change = np.hstack([states[:, 2:4] - arc.u0, (v - arc.v0) / unit])
     size = np.sum(slope * slope, axis=1)
@@ -370,7 +370,7 @@ def arc(body: PlaneBody, state: Sequence[float]) -> Arc:
     u0, v0, a = np.array([g1, g2]), np.array([-w2, w1]), body.acceleration
     rows, (period,), (c,), (rate,) = _solve(u0, v0[None], a, g3)
     low, high, side, before, after = map(float, rows[0])
-    frame = (frozen(u0), frozen(v0), frozen(a), float(rate))
+    frame = (as_read_only(u0), as_read_only(v0), as_read_only(a), float(rate))
     if rate == 0.0 or (c[0] == 0.0 and c[1] == 0.0):
         stable = bool(c[2] < 0.0) if c[2] != 0.0 else None
         return Arc("fixed", *frame, (0.0, 0.0), None, None, 0.0, stable)
@@ -405,7 +405,7 @@ def periods_by_direction(body: PlaneBody, q: Sequence[float], speed: float) -> A
     r1, r2 = body.axes
     angle = np.linspace(-math.pi, math.pi, 721)
     v0 = speed * np.column_stack([-np.sin(angle) / r2, np.cos(angle) / r1])
-    return frozen(np.column_stack([angle, _solve(np.array(state[2:4]), v0, body.acceleration, state[4])[1]]))
+    return as_read_only(np.column_stack([angle, _solve(np.array(state[2:4]), v0, body.acceleration, state[4])[1]]))
 
 
 def fixed_point_kinds(body: PlaneBody, E: float, count: int = 361) -> tuple[Array, Array]:
@@ -434,7 +434,7 @@ def fixed_point_kinds(body: PlaneBody, E: float, count: int = 361) -> tuple[Arra
     kinetic = E - u @ np.array([body.b1, body.b2])
     squared = 2.0 * kinetic / (body.I11 * u[:, 0] ** 2 + body.I22 * u[:, 1] ** 2)
     kind = np.where(kinetic < 0.0, 0.0, np.where(squared + u @ body.acceleration > 0.0, 1.0, -1.0))
-    return frozen(body.q_of(u)), frozen(kind)
+    return as_read_only(body.q_of(u)), as_read_only(kind)
 
 
 def _segment(body: PlaneBody, share: float, count: int) -> Array:
@@ -511,4 +511,4 @@ def sampled_orbit(body: PlaneBody, start: Sequence[float], duration: float, accu
     """
     weights = body.pixels_per_unit(body.energy(start))
     orbit = sampling.sampled_orbit(body, start, duration, weights, accuracy, MOST_SAMPLES)
-    return orbit, frozen(mirror_image(solve(body, start, -orbit.times, accuracy).states))
+    return orbit, as_read_only(mirror_image(solve(body, start, -orbit.times, accuracy).states))

@@ -100,10 +100,10 @@ def arcs(coefficients, out):
         if c[0] == 0.0 and c[1] == 0.0:
             continue
         bent = 2.0 * math.sqrt(-c[4])
-        # |u| ≥ |a|τ²/2 − τ − 1.
+        # Beyond this reach |u| ≥ |a|τ²/2 − τ − 1 exceeds 1.
         reach = max(_REACH, 1.01 * (1.0 + math.sqrt(1.0 + 4.0 * bent)) / bent) if bent > _LEAST else _REACH
         n = _zeros(c, reach, derivatives, zeros)
-        # P > 0 between the zeros i − 1 and i.
+        # The start τ = 0 lies between the zeros i − 1 and i, where P > 0.
         i = 0
         while i < n and zeros[i, 0] < 0.0:
             i += 1

@@ -31,7 +31,7 @@ from hess_mechanics.dynamics.plane_section import Plane, section
 from hess_mechanics.dynamics.sampling import PIXELS, sampled_orbit
 from hess_mechanics.dynamics.system import Body, System, in_units_of_time
 from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.results import Array, Orbit, frozen
+from hess_mechanics.numerics.results import Array, Orbit, as_read_only
 from hess_mechanics.rigid_body.inertia import require_comparable, require_finite, require_positive_definite
 from hess_mechanics.suslov import equations
 
@@ -346,7 +346,7 @@ def frequency(y: Array, p: Array) -> Array | float:
     I11, I22 = p[0], p[1]
     require_comparable(I11, I22)
     square = y[2] ** 2 + y[3] ** 2 + y[4] ** 2
-    # |γ1²γ2 − γ2³/3| ≤ |γ|³/3, γ1²γ2² ≤ |γ|⁴/4.
+    # Bounds: |γ1²γ2 − γ2³/3| ≤ |γ|³/3 and γ1²γ2² ≤ |γ|⁴/4.
     largest = (
         0.5 * max(abs(p[2]), abs(p[3])) * square + abs(p[4]) / 3 * square * np.sqrt(square) + abs(p[5]) / 4 * square**2
     )
@@ -412,9 +412,9 @@ class PlaneMotion:
         Period 2(t2 − t1), from two successive crossings of the equator; None if there are fewer.
     closure_error : float
         Distance from the start after one period; ∞ without a period.
-    fixed : bool
+    is_fixed_point : bool
         True if the state is an equilibrium.
-    one_sided : bool
+    is_one_sided : bool
         True if the energy prevents the motion from reaching the equator.
     integral : float
         Range of F2 of a quadratic potential along the motion, relative to its largest value; ≥ 0.
@@ -424,8 +424,8 @@ class PlaneMotion:
     energy: float
     period: float | None
     closure_error: float
-    fixed: bool
-    one_sided: bool
+    is_fixed_point: bool
+    is_one_sided: bool
     integral: float
 
 
@@ -498,7 +498,7 @@ def level_curve(body: PotentialBody, value: float) -> list[Array]:
     radius = _radius(body, value)
     cuts = np.flatnonzero(np.diff(radius < _EDGE)) + 1
     parts = np.split(radius[:, None] * _ALL_ROUND, cuts)
-    return [frozen(part) for part in parts if len(part) > 1 and math.hypot(*part[0]) < _EDGE]
+    return [as_read_only(part) for part in parts if len(part) > 1 and math.hypot(*part[0]) < _EDGE]
 
 
 def forbidden(body: PotentialBody, energy: float) -> list[Array]:
@@ -518,5 +518,7 @@ def forbidden(body: PotentialBody, energy: float) -> list[Array]:
     """
     radius = _radius(body, energy)
     return (
-        [] if np.all(radius >= _EDGE) else [frozen(np.concatenate([_ALL_ROUND, (radius[:, None] * _ALL_ROUND)[::-1]]))]
+        []
+        if np.all(radius >= _EDGE)
+        else [as_read_only(np.concatenate([_ALL_ROUND, (radius[:, None] * _ALL_ROUND)[::-1]]))]
     )

@@ -19,7 +19,7 @@ import numpy as np
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.results import Array, Orbit, frozen
+from hess_mechanics.numerics.results import Array, Orbit, as_read_only
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 
 __all__ = ["Conformal", "conformal", "divergence", "energy_gradient", "poisson_matrix"]
@@ -157,11 +157,11 @@ def conformal(body: SuslovBody, start: Sequence[float], duration: float, accurac
     orbit = solve(body, start, np.linspace(0.0, duration, 2 * math.ceil(pairs) + 1), accuracy)
     y = list(orbit.states.T)
     g3, rates, step = y[4], np.array(SYSTEM.field(y, p)), orbit.times[1]
-    # Cubic Hermite interpolation of γ3.
+    # Interpolate γ3 by cubic Hermite polynomials.
     pieces = 0.5 * step * (g3[1:] + g3[:-1]) + step * step / 12.0 * (rates[4, :-1] - rates[4, 1:])
     with np.errstate(divide="ignore", invalid="ignore"):
         P, gradient = poisson_matrix(y, p), energy_gradient(y, p)
         by_brackets = np.array([g3 * sum(a * b for a, b in zip(row, gradient, strict=True)) for row in P])
     residual = np.abs(by_brackets - rates)[:, g3 != 0.0].max(initial=0.0) / max(np.abs(rates).max(), 1e-300)
     tau = np.concatenate([[0.0], np.cumsum(pieces)])
-    return Conformal(orbit, frozen(tau), frozen(np.stack([P[0][4], P[1][4]], axis=-1)), float(residual))
+    return Conformal(orbit, as_read_only(tau), as_read_only(np.stack([P[0][4], P[1][4]], axis=-1)), float(residual))

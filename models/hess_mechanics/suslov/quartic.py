@@ -121,7 +121,7 @@ class QuarticBody(PlaneProblem):
         return math.sqrt(size * self.I22) / abs(self.b3), math.sqrt(size * self.I11) / abs(self.b3)
 
     def _size(self, height: Array | float) -> Array:
-        """Return the size of the ellipse on which γ3 has a given value, in units of `axes`; 0 if there is none."""
+        """Return the size of the ellipse on which γ3 has a given value, in units of `axes`; 0 if it does not exist."""
         size = abs(self.b3)
         return np.sqrt(np.maximum(0.0, self.E - self.b3 * np.asarray(height)) / (self.E + size))
 
@@ -172,7 +172,7 @@ class QuarticBody(PlaneProblem):
             return q
         if size < _MIDDLE:
             x, y, size = 1.0, 0.0, 1.0
-        # The ring may be narrow.
+        # Leave less room in a narrow ring.
         room = min(_INSIDE, 0.25 * (1.0 - inner))
         share = min(1.0 - room, max(inner + room, size)) / size
         return share * x * first, share * y * second
@@ -495,7 +495,7 @@ class QuarticSection(PoincareSection):
         place[along], momentum[along] = q, p
         g3 = self.body.height(place.T)
         left = (1.0 - g3) * (1.0 + g3) - p * p
-        # The q that is 0 increases where its p is negative.
+        # On the section one q vanishes, and increases where its p is negative.
         momentum[1 - along] = -np.sqrt(np.maximum(0.0, left))
         return np.stack([*self.body.omega(place), *momentum, g3], axis=1), left > 0.0
 

@@ -33,7 +33,7 @@ from hess_mechanics.errors import InvalidParameter, ModelError
 from hess_mechanics.numerics.accuracy import Accuracy, Status
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
-from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen
+from hess_mechanics.numerics.results import Array, Cost, as_read_only, facts_of
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov.additional_integral import I11_at
 from hess_mechanics.suslov.equations import SuslovBody
@@ -197,7 +197,7 @@ def scattering(body: SuslovBody, accuracy: Accuracy, arc: int = 1, distance: flo
     of = shape(body)
     first = -of.end if distance is None else _u_at(of, float(distance))
     A, B, error, steps = transfer(of, arc, np.array([first, of.end]), level)
-    # The azimuth at the start, transformed to the rotating frame.
+    # Transform the azimuth at the start to the rotating frame.
     before = 0.0 if distance is None else float(of.angle(first, arc))
     half = cmath.exp(0.5j * before)
     alpha, beta = complex(A[1]) * half, complex(B[1]) * half
@@ -281,7 +281,7 @@ def cos_chi_over(low: int, high: int, I22: float, I13: float, I23: float) -> Arr
             rows.append((one, cos_chi(SuslovBody(I11_at(one, I22, I13, I23), I22, I13, I23))))
         except ModelError:
             continue
-    return frozen(np.array(rows).reshape(-1, 2))
+    return as_read_only(np.array(rows).reshape(-1, 2))
 
 
 def theta_plus_grid(rotation: Scattering, m: int, n: int) -> Array:
@@ -300,7 +300,7 @@ def theta_plus_grid(rotation: Scattering, m: int, n: int) -> Array:
         Angles θ⁺ in radians; each row has one θ⁻.
     """
     phi, theta = centres(-math.pi, math.pi, m), centres(0.0, math.pi, n)
-    return frozen(rotation.theta_plus(theta[:, None], phi[None, :]))
+    return as_read_only(rotation.theta_plus(theta[:, None], phi[None, :]))
 
 
 def start(

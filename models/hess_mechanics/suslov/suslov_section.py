@@ -27,7 +27,7 @@ from hess_mechanics.dynamics.plane_section import Plane
 from hess_mechanics.dynamics.return_map import PoincareSection
 from hess_mechanics.dynamics.system import System
 from hess_mechanics.errors import InvalidParameter, OutsideRegion
-from hess_mechanics.numerics.results import Array, Mask, frozen
+from hess_mechanics.numerics.results import Array, Mask, as_read_only
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov.equations import SYSTEM, SuslovBody
 
@@ -278,7 +278,7 @@ class AngleSection(PoincareSection):
         """
         return np.asarray(np.array(self.parameters[-3:]) @ self._gamma(psi) < self.E)
 
-    def impossible(self, window: Window) -> Array:
+    def forbidden_cells(self, window: Window) -> Array:
         """Return the forbidden region of a window, as cells.
 
         Parameters
@@ -292,7 +292,7 @@ class AngleSection(PoincareSection):
             1 where the energy does not allow ψ, otherwise 0.
         """
         psi = np.linspace(window[0][0], window[1][0], _COLUMNS + 1)
-        return frozen(1.0 - self.possible(0.5 * (psi[1:] + psi[:-1]))[None, :].astype(float))
+        return as_read_only(1.0 - self.possible(0.5 * (psi[1:] + psi[:-1]))[None, :].astype(float))
 
 
 @dataclass(frozen=True)

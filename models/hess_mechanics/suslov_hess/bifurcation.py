@@ -14,7 +14,7 @@ import numpy as np
 
 from hess_mechanics.errors import InvalidParameter, OutsideRegion, Separatrix
 from hess_mechanics.numerics.arguments import as_integer, as_number
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, as_read_only
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation_kernels import f_max_and_roots, largest_f_into
 
@@ -23,7 +23,7 @@ __all__ = [
     "curve",
     "curve_point",
     "f_max",
-    "f_max_each",
+    "f_max_of_energies",
     "h_min",
     "reach",
     "turning_points",
@@ -138,10 +138,10 @@ def f_max(h: float) -> float:
     True
     """
     _check_h(h)
-    return float(f_max_each(np.array([h], float))[0])
+    return float(f_max_of_energies(np.array([h], float))[0])
 
 
-def f_max_each(h: Array) -> Array:
+def f_max_of_energies(h: Array) -> Array:
     """Return `f_max` of each energy.
 
     Parameters
@@ -181,7 +181,7 @@ def h_min(f: float) -> float:
     """
     require_finite(f=f)
     low, high = 0.0, 1.0
-    # Bisection in √n to round-off: r⁴ + |f| r − 1 increases with r = √n.
+    # Bisect in r = √n down to round-off, because r⁴ + |f| r − 1 increases with r.
     while low < (root := 0.5 * (low + high)) < high:
         low, high = (root, high) if root**4 + abs(f) * root < 1.0 else (low, root)
     return curve_point(high * high)[0]
@@ -240,10 +240,10 @@ def turning_points(h: float, f: float) -> TurningPoints:
     [-1.5, -1.0, 1.0]
     """
     _check_h(h)
-    h, f = float(h), as_number("f", f) + 0.0  # f = −0.0 is f = 0
+    h, f = float(h), as_number("f", f) + 0.0  # Treat f = −0.0 as 0.
     fm, numbers, period = f_max_and_roots(h, f)
     if abs(f) > fm * (1 + 1e-15):
-        # Rounded down, so that the bound in the message is itself accepted.
+        # Round down, so that the bound in the message is itself accepted.
         raise OutsideRegion(
             f"No motion has h = {h:.15g} and f = {f:.15g}: at this h choose |f| ≤ {fm * (1 - 1e-11):.12g}, "
             "or a larger h."
@@ -328,4 +328,4 @@ def curve(h_end: float, points: int = 200) -> Array:
     as_integer("points", points, 1, 100_000)
     n_end = 2.0 / (2.0 * h_end + 2.0 * math.sqrt(h_end * h_end + 3.0))
     n = 1.0 - (1.0 - n_end) * np.linspace(0.0, 1.0, points)
-    return frozen(np.column_stack([(1 - 3 * n * n) / (2 * n), (1 - n * n) / np.sqrt(n)]))
+    return as_read_only(np.column_stack([(1 - 3 * n * n) / (2 * n), (1 - n * n) / np.sqrt(n)]))

@@ -16,7 +16,7 @@ from hess_mechanics.numerics.balls import Enclosure, flint
 from hess_mechanics.suslov_hess.edge import TWO_EQUILIBRIA, EdgeProof
 from hess_mechanics.suslov_hess.proof import NO_CYCLE, TWO_CYCLES, Proof
 
-__all__ = ["EDGE_FORMAT", "FORMAT", "certificate", "claim"]
+__all__ = ["EDGE_FORMAT", "FORMAT", "certificate", "statement_text"]
 
 FORMAT = "Suslov–Hess torus, 1"
 EDGE_FORMAT = "Suslov–Hess edge, 1"
@@ -41,7 +41,7 @@ def _short(number: Fraction) -> str:
     return exact[0] if rest == 1 and exact[0] == exact[1] else str(number)
 
 
-def claim(proof: Proof | EdgeProof) -> str:
+def statement_text(proof: Proof | EdgeProof) -> str:
     """Return the proved statement in words.
 
     Parameters
@@ -133,7 +133,7 @@ def certificate(proof: Proof | EdgeProof) -> dict[str, Any]:
         "rotation_number": None if proof.rotation_number is None else _pair(proof.rotation_number),
         "multipliers": _pairs(proof.multipliers),
         "roots": _pairs(proof.roots),
-        "half": _pairs(proof.half),
+        "half": _pairs(proof.half_turn),
         "steps": [
             {
                 "start": str(step.start),

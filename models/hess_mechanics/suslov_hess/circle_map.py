@@ -29,9 +29,9 @@ from hess_mechanics.numerics.accuracy import Accuracy, Level, Status
 from hess_mechanics.numerics.arguments import as_level, as_number
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.measured import measured
-from hess_mechanics.numerics.results import Array, Cost, facts_of, frozen
+from hess_mechanics.numerics.results import Array, Cost, as_read_only, facts_of
 from hess_mechanics.rigid_body.inertia import require_finite
-from hess_mechanics.suslov_hess.bifurcation import f_max_each, turning_points
+from hess_mechanics.suslov_hess.bifurcation import f_max_of_energies, turning_points
 from hess_mechanics.suslov_hess.circle_map_kernels import matrices_into, theta_of
 
 __all__ = [
@@ -122,7 +122,7 @@ def rotation_numbers_of(rows: Array) -> Array:
     k = np.floor(zeta / np.pi)
     sign = 1.0 - 2.0 * (k % 2)
     turning = k + np.arctan2(np.sqrt(np.maximum(-discriminant, 0.0)), sign * re) / np.pi
-    rho: Array = np.where(discriminant < 0.0, turning, np.round(zeta / np.pi)) + 0.0  # no −0.0
+    rho: Array = np.where(discriminant < 0.0, turning, np.round(zeta / np.pi)) + 0.0  # Avoid −0.0.
     return rho
 
 
@@ -256,7 +256,7 @@ class CircleMap(Result):
         orbit[0] = math.remainder(phi, 2 * math.pi)
         for i in range(count):
             orbit[i + 1 : i + 2] = self.theta(orbit[i : i + 1])
-        return frozen(orbit)
+        return as_read_only(orbit)
 
     def labels(self) -> Labels:
         """Return the graph of Θ with names, units and coordinates.
@@ -297,7 +297,7 @@ class CircleMap(Result):
         Θ⁻¹(ψ) = −Θ(−ψ).
         """
         phi = np.unique(np.concatenate([_EVEN, -self.theta(-_EVEN)]))
-        return frozen(phi), frozen(np.unwrap(self.theta(phi)))
+        return as_read_only(phi), as_read_only(np.unwrap(self.theta(phi)))
 
 
 def _theta(matrix: tuple[float, float, float], phi: Array) -> Array:
@@ -336,7 +336,7 @@ def _difference(m: Array, n: Array) -> float:
 
 
 def _weight(m: Array) -> float:
-    """Return the factor from an error of Re α e^{−L} to one of the trace, which is relative if the trace exceeds 1."""
+    """Return the factor from an error of Re α e^{−L} to an error of the trace, relative if the trace exceeds 1."""
     scale = math.exp(min(m[3], 700.0))
     return scale / max(1.0, 2 * abs(float(m[0])) * scale)
 
@@ -420,14 +420,14 @@ def circle_map(a: float, h: float, f: float, accuracy: Accuracy) -> CircleMap:
     ('elliptic', 0)
     """
     level = as_level(accuracy)
-    a, h, f = as_number("a", a), as_number("h", h), as_number("f", f) + 0.0  # f = −0.0 is f = 0
+    a, h, f = as_number("a", a), as_number("h", h), as_number("f", f) + 0.0  # Treat f = −0.0 as 0.
     check_a(a)
     turning = turning_points(h, f)
     here = np.array([h]), np.array([f])
-    tori = here, neighbours(*here, f_max_each(np.array([h])))
+    tori = here, neighbours(*here, f_max_of_energies(np.array([h])))
 
     def run(at: Level, _: int) -> tuple[Array, int]:
-        energies, fs = tori[at.aside]
+        energies, fs = tori[at.is_perturbed]
         row: Array = matrices(a, energies, fs, at)[0]
         return row, int(row[5])
 

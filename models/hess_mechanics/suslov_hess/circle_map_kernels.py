@@ -1,5 +1,5 @@
 # mypy: allow-untyped-defs
-"""Kernels of `circle_map`: the SU(1,1) matrix of one torus or of many, and the map Θ.  Not for users."""
+"""Kernels of `circle_map`: the SU(1,1) matrices of tori, and the map Θ.  Not for users."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ def monodromy(h, f, a, order, tolerance, max_steps):
 
 @kernel
 def matrices_into(a, h, f, order, tolerance, max_steps, out):
-    """Store `monodromy` of each torus (a[i], h[i], f[i]) in out[i]; return False if one reached the step limit."""
+    """Store `monodromy` of each torus (a[i], h[i], f[i]) in out[i]; return False if a torus reached the step limit."""
     complete = True
     for i in range(h.size):
         row = monodromy(h[i], f[i], a[i], order, tolerance, max_steps)

@@ -23,7 +23,7 @@ import numpy as np
 
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.results import Array, Complex, frozen
+from hess_mechanics.numerics.results import Array, Complex, as_read_only
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, turning_points
 from hess_mechanics.suslov_hess.circle_map import CircleMap
 from hess_mechanics.suslov_hess.invariant_measure import zeta_at
@@ -104,7 +104,9 @@ def cross_section(h: float, turning_points: TurningPoints | None, count: int) ->
     speed = (n2 - n1) * sine * np.cos(0.5 * theta) * np.sqrt(2.0 * (n1 - n0 + rise))
     speed[-1] = 0.0
     return CrossSection(
-        frozen(np.sqrt((lowest + 2.0 * rise) / square)), frozen(speed / square), frozen(_times(n0, n1, n2, theta))
+        as_read_only(np.sqrt((lowest + 2.0 * rise) / square)),
+        as_read_only(speed / square),
+        as_read_only(_times(n0, n1, n2, theta)),
     )
 
 
@@ -113,7 +115,7 @@ def _times(n0: float, n1: float, n2: float, theta: Array) -> Array:
     if n1 == n0:
         return np.where(theta > 0.0, math.inf, 0.0)
     m = (n2 - n1) / (n2 - n0)
-    # Imported here because it takes 0.2 s, and few commands draw a torus.
+    # Imported here because the import takes 0.2 s, and few commands draw a torus.
     from scipy.special import ellipk, ellipkinc
 
     times = math.sqrt(2.0 / (n2 - n0)) * (ellipk(m) - ellipkinc(0.5 * (math.pi - theta), m))

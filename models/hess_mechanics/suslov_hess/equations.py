@@ -328,7 +328,7 @@ SYSTEM = System(
 
 
 def _field_with_attitude(y: Sequence[Any], p: Sequence[Any]) -> tuple[Any, ...]:
-    # Every direction fixed in space obeys the equation of the vertical.
+    # A direction fixed in space obeys the equation of the vertical.
     return (*field(y[:5], p), *field((*y[:2], *y[5:]), p)[2:])
 
 

@@ -31,7 +31,7 @@ import numpy as np
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.results import Array, Complex, frozen
+from hess_mechanics.numerics.results import Array, Complex, as_read_only
 from hess_mechanics.parameters import plain
 from hess_mechanics.suslov_hess.bifurcation import turning_points
 from hess_mechanics.suslov_hess.circle_map import CircleMap, discriminants
@@ -166,7 +166,7 @@ def zeta_at(theta: CircleMap, times: Sequence[float] | Array, accuracy: Accuracy
     error = max(orbit.error_estimate for orbit in orbits)
     if np.min(1.0 - np.abs(zeta)) < max(_NARROWEST, 10.0 * error):
         raise narrow
-    return frozen(zeta)
+    return as_read_only(zeta)
 
 
 CELLS = (120, 120)
@@ -201,4 +201,4 @@ def density_on_torus(theta: CircleMap, accuracy: Accuracy, cells: tuple[int, int
     zeta = zeta_at(theta, (np.arange(m) + 0.5) / m * theta.period, accuracy)[:, None]
     z = np.exp(1j * (2.0 * np.arange(n) + 1.0 - n) * math.pi / n)
     relative = (1.0 - np.abs(zeta) ** 2) / np.abs(z - zeta) ** 2
-    return frozen(np.roll(relative, m // 2, axis=0).T.copy())
+    return as_read_only(np.roll(relative, m // 2, axis=0).T.copy())

@@ -17,17 +17,17 @@ from hess_mechanics.errors import InvalidParameter
 from hess_mechanics.numerics.accuracy import Accuracy, Level
 from hess_mechanics.numerics.arguments import as_integer, as_level
 from hess_mechanics.numerics.parallel import run_in_threads
-from hess_mechanics.numerics.results import Array, frozen
-from hess_mechanics.suslov_hess.bifurcation import f_max_each, turning_points
+from hess_mechanics.numerics.results import Array, as_read_only
+from hess_mechanics.suslov_hess.bifurcation import f_max_of_energies, turning_points
 from hess_mechanics.suslov_hess.circle_map import check_a, matrices, rotation_numbers_of
 
 __all__ = [
     "CELLS",
     "affordable_cells",
     "critical_a",
-    "critical_each",
-    "lock_boundary",
+    "critical_a_of_tori",
     "rotation_number_window",
+    "tongue_boundary",
 ]
 
 _MAX_A_OF_BOUNDARY = 1e5
@@ -59,7 +59,7 @@ def _rising_roots(function: Callable[[Array], Array], low: Array, high: Array) -
     return x
 
 
-def lock_boundary(a: float, accuracy: Accuracy, points: int = 48) -> Array:
+def tongue_boundary(a: float, accuracy: Accuracy, points: int = 48) -> Array:
     """Return the boundary |t| = 2 of the Arnold tongue of ρ = 0, for f ≥ 0.
 
     Parameters
@@ -84,8 +84,8 @@ def lock_boundary(a: float, accuracy: Accuracy, points: int = 48) -> Array:
 
     Examples
     --------
-    >>> from hess_mechanics import circle_map, level, lock_boundary
-    >>> h, f = lock_boundary(0.5, level("precise"))[20]
+    >>> from hess_mechanics import circle_map, level, tongue_boundary
+    >>> h, f = tongue_boundary(0.5, level("precise"))[20]
     >>> abs(circle_map(0.5, h, f, level("precise")).trace - 2.0) < 1e-6
     True
     """
@@ -93,24 +93,24 @@ def lock_boundary(a: float, accuracy: Accuracy, points: int = 48) -> Array:
     check_a(a)
     as_integer("points", points, 3, 100_000)
     if abs(a) > _MAX_A_OF_BOUNDARY:
-        raise InvalidParameter(f"a = {a:g} is too large for the lock boundary: choose |a| ≤ {_MAX_A_OF_BOUNDARY:g}.")
-    # h*, the end of the boundary on the bifurcation curve.
+        raise InvalidParameter(f"a = {a:g} is too large for the Arnold tongue: choose |a| ≤ {_MAX_A_OF_BOUNDARY:g}.")
+    # h* is the energy at the end of the boundary on the bifurcation curve.
     end = (1 - 2 * a * a) / (2 * abs(a) * math.hypot(1.0, a)) if a else math.inf
     if end > 1e6:
-        return frozen(np.empty((0, 2)))
+        return as_read_only(np.empty((0, 2)))
     s = np.cos(np.linspace(0.0, 0.5 * math.pi, points))[1:-1]
 
     def locked(e: Array) -> Array:
-        return _lock_function(abs(float(a)), e - 1.0, s * f_max_each(e - 1.0), level)
+        return _lock_function(abs(float(a)), e - 1.0, s * f_max_of_energies(e - 1.0), level)
 
     # In e = h + 1 the boundary lies between half the smaller and twice the larger of its end values.
     ends = (end + 1.0, 2.0)
     e = _rising_roots(locked, np.full(s.size, 0.5 * min(ends)), np.full(s.size, 2.0 * max(ends)))
-    inside = np.column_stack([e - 1.0, s * f_max_each(e - 1.0)])
-    return frozen(np.vstack([[end, f_max_each(np.array([end]))[0]], inside, [1.0, 0.0]]))
+    inside = np.column_stack([e - 1.0, s * f_max_of_energies(e - 1.0)])
+    return as_read_only(np.vstack([[end, f_max_of_energies(np.array([end]))[0]], inside, [1.0, 0.0]]))
 
 
-def critical_each(h: Array, f: Array, accuracy: Accuracy, high: float) -> Array:
+def critical_a_of_tori(h: Array, f: Array, accuracy: Accuracy, high: float) -> Array:
     """Return `critical_a` of possible tori.
 
     Parameters
@@ -183,9 +183,12 @@ def critical_a(h: float, f: float, accuracy: Accuracy, high: float = 10.0) -> fl
     """
     check_a(high)
     turning_points(h, f)
-    a = float(critical_each(np.array([h], float), np.array([f], float), accuracy, high)[0])
+    a = float(critical_a_of_tori(np.array([h], float), np.array([f], float), accuracy, high)[0])
     if math.isnan(a):
-        raise InvalidParameter(f"No lock boundary crosses this h and f between a = 0 and a = {high:g}.")
+        raise InvalidParameter(
+            f"At this h and f no limit cycles appear between a = 0 and a = {high:g}: choose another torus or a larger "
+            "`high`."
+        )
     return a
 
 
@@ -194,7 +197,7 @@ CELLS = (100, 75)
 
 
 def affordable_cells(a: float, cells: tuple[int, int]) -> tuple[int, int]:
-    """Return fewer cells if a large |a| makes each one expensive, but at least 8 × 8.
+    """Return fewer cells if a large |a| makes each cell expensive, but at least 8 × 8.
 
     Parameters
     ----------
@@ -250,11 +253,11 @@ def rotation_number_window(
     level = as_level(accuracy)
     check_a(a)
     hs, fs = np.maximum(centres(*h, cells[0]), -1.0 + 1e-6), centres(*f, cells[1])
-    # f and −f may differ in the last digits.
+    # Compute each |f| once: the values of f and −f may differ in the last digits.
     mantissas, exponents = np.frexp(np.abs(fs))
     magnitudes, back = np.unique(np.ldexp(np.round(mantissas, 13), exponents), return_inverse=True)
     H, F = (x.ravel() for x in np.meshgrid(hs, magnitudes))
-    F = np.minimum(F, f_max_each(H))
+    F = np.minimum(F, f_max_of_energies(H))
     F[(F == 0.0) & (H == 1.0)] = 1e-12
     out = np.empty(H.size)
 
@@ -263,11 +266,11 @@ def rotation_number_window(
     exact = level.tighter().tighter()
 
     def part(i: int) -> None:
-        # Every second point, so that both threads get equally many slow points.
+        # Give each thread every second point, so that both get equally many slow points.
         own = np.arange(H.size) % 2 == i
         for points, chosen in ((own & ~near, level), (own & near, exact)):
             if points.any():
                 out[points] = rotation_numbers_of(matrices(a, H[points], F[points], chosen))
 
     run_in_threads(part, 2)
-    return frozen(np.where(fs < 0.0, -1.0, 1.0)[:, None] * out.reshape(magnitudes.size, hs.size)[back])
+    return as_read_only(np.where(fs < 0.0, -1.0, 1.0)[:, None] * out.reshape(magnitudes.size, hs.size)[back])

@@ -54,8 +54,8 @@ from hess_mechanics.suslov_hess.edge import EdgeProof, prove_edge
 
 __all__ = [
     "FIRST_BITS",
-    "MOST_BITS",
-    "MOST_WORK",
+    "MAX_BITS",
+    "MAX_WORK",
     "NO_CYCLE",
     "TWO_CYCLES",
     "UNDECIDED",
@@ -65,8 +65,8 @@ __all__ = [
 ]
 
 TWO_CYCLES, NO_CYCLE, UNDECIDED = "two cycles", "no cycle", "undecided"
-FIRST_BITS, MOST_BITS = 64, 512
-MOST_WORK = 2e7
+FIRST_BITS, MAX_BITS = 64, 512
+MAX_WORK = 2e7
 """Limit on the number of steps times the square of their terms, in one proof at one precision: about 15 s."""
 _SHARE = 0.8
 _GROWTH = 8
@@ -126,7 +126,7 @@ class Proof(ShortRepr):
         Multipliers of the stable and of the unstable limit cycle; empty without limit cycles.
     roots : tuple of Enclosure or None
         n0 < n1 < n2; None for f = 0, h < 1, where the map is a limit in closed form.
-    half : tuple of Enclosure or None
+    half_turn : tuple of Enclosure or None
         A, B, C, D of the half map.
     steps : tuple of ProofStep
         The Taylor steps.
@@ -149,7 +149,7 @@ class Proof(ShortRepr):
     fixed_points: tuple[Enclosure, ...]
     multipliers: tuple[Enclosure, ...]
     roots: tuple[Enclosure, ...] | None
-    half: tuple[Enclosure, ...] | None
+    half_turn: tuple[Enclosure, ...] | None
     steps: tuple[ProofStep, ...]
     bits: int
     seconds: float
@@ -171,8 +171,8 @@ def prove(
     a: ExactNumber,
     h: ExactNumber,
     f: ExactNumber,
-    most_bits: int = MOST_BITS,
-    most_work: float = MOST_WORK,
+    most_bits: int = MAX_BITS,
+    most_work: float = MAX_WORK,
     digits: int = 6,
 ) -> Proof | EdgeProof:
     """Prove that the torus (a, h, f) has exactly two limit cycles, or none.
@@ -378,7 +378,7 @@ def _proof(
     rotation = _rotation(statement, t, A, B, C, D, theta)
     cycles = _cycles(t, A, B, C, D) if statement == TWO_CYCLES else ((), ())
     if rotation is None or cycles is None:
-        # The sign of the trace is known, but the rotation number or the cycles are not enclosed yet.
+        # The sign of the trace is certain, but the rotation number or the cycles need more digits.
         statement, rotation, cycles = UNDECIDED, None, ((), ())
     trace = Enclosure(max(Fraction(0), t.low, -t.high), max(abs(t.low), abs(t.high)))
     return Proof(
@@ -447,7 +447,7 @@ def _step(
 
 
 def _verdict(A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall) -> tuple[str, Enclosure]:
-    """Return the statement and t: both forms enclose t, and the one with the smaller product does so more closely."""
+    """Return the statement and t, from the tighter of two forms that enclose t."""
     small, large = enclosure(B * C), enclosure(A * D)
     t = Enclosure(2 + 4 * max(small.low, large.low - 1), 2 + 4 * min(small.high, large.high - 1))
     if t.low > 2 or t.high < -2:
@@ -458,7 +458,7 @@ def _verdict(A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall) -> tuple[str, Enclo
 def _cycles(
     t: Enclosure, A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall
 ) -> tuple[tuple[Enclosure, ...], tuple[Enclosure, ...]] | None:
-    """Return φ and the multipliers of the stable and of the unstable cycle; None if these balls do not decide."""
+    """Return φ and the multipliers of the stable and of the unstable cycle; None if the balls are too wide."""
     phi = 2 * (A * C / (B * D)).sqrt().atan()
     multiplier = (abs(A * D).sqrt() + abs(B * C).sqrt()) ** -4
     if not (phi.is_finite() and multiplier.is_finite() and multiplier > 0):
@@ -473,7 +473,7 @@ def _cycles(
 def _rotation(
     statement: str, t: Enclosure, A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall, theta: ArbBall
 ) -> Enclosure | None:
-    """Return ρ; None if these balls do not decide."""
+    """Return ρ; None if the balls are too wide."""
     from flint import arb
 
     quadrants = enclosure(2 * theta / arb.pi()) if theta.is_finite() else None
@@ -481,7 +481,7 @@ def _rotation(
         return None
     m = math.floor(quadrants.low)
     if statement == TWO_CYCLES:
-        # ρ is the even one of m and m + 1 for t > 2, the odd one for t < −2.
+        # ρ is the even number of m and m + 1 for t > 2, and the odd number for t < −2.
         locked = Fraction(m + (m + int(t.low < 0)) % 2)
         return Enclosure(locked, locked)
     share = 2 * (-(B * C) / (A * D)).sqrt().atan() / arb.pi()

@@ -25,9 +25,9 @@ from hess_mechanics.numerics.accuracy import Accuracy
 from hess_mechanics.numerics.arguments import as_level
 from hess_mechanics.numerics.labelled import Labels, Result
 from hess_mechanics.numerics.measured import SAFETY
-from hess_mechanics.numerics.results import Array, Mask, frozen
+from hess_mechanics.numerics.results import Array, Mask, as_read_only
 from hess_mechanics.rigid_body.inertia import require_finite
-from hess_mechanics.suslov_hess.bifurcation import f_max, f_max_each, h_min
+from hess_mechanics.suslov_hess.bifurcation import f_max, f_max_of_energies, h_min
 from hess_mechanics.suslov_hess.circle_map import (
     check_a,
     circle_map,
@@ -36,7 +36,7 @@ from hess_mechanics.suslov_hess.circle_map import (
     neighbours,
     rotation_numbers_of,
 )
-from hess_mechanics.suslov_hess.mode_locking import critical_each, lock_boundary
+from hess_mechanics.suslov_hess.mode_locking import critical_a_of_tori, tongue_boundary
 
 __all__ = [
     "PLANES",
@@ -46,7 +46,6 @@ __all__ = [
     "Torus",
     "TorusValues",
     "concatenate",
-    "lock_curve",
     "parameter_at",
     "periodic_torus",
     "perturbations_along",
@@ -57,6 +56,7 @@ __all__ = [
     "rotation_errors",
     "rows",
     "rows_error",
+    "tongue_curve",
     "values_along",
     "values_at",
 ]
@@ -91,7 +91,7 @@ class Torus:
     h: float
     f: float
 
-    def at(self, **values: float) -> Torus:
+    def with_values(self, **values: float) -> Torus:
         """Return the torus with some parameters replaced.
 
         Parameters
@@ -127,7 +127,7 @@ class Torus:
 
 @dataclass(frozen=True)
 class ParameterLine:
-    """Tori on a line in the space of parameters: one of them varies.
+    """Tori on a line in the space of parameters, along which one parameter varies.
 
     Parameters
     ----------
@@ -304,7 +304,7 @@ def values_at(a: Array | float, h: Array | float, f: Array | float, accuracy: Ac
         raise InvalidParameter("An h or f is not finite, or |h| exceeds 1e12: choose finite h and f, and |h| ≤ 1e12.")
     check_a(float(np.max(np.abs(a), initial=0.0)))
     energies, back = np.unique(h, return_inverse=True)
-    edge = np.where(energies > -1.0, f_max_each(np.maximum(energies, -1.0)), -1.0)[back]
+    edge = np.where(energies > -1.0, f_max_of_energies(np.maximum(energies, -1.0)), -1.0)[back]
     possible = (np.abs(f) <= edge) & (np.hypot(h - 1.0, f) > _NEAR_SEPARATRIX)
     rows = np.zeros((a.size, 6))
     rows[possible] = matrices(a[possible], h[possible], np.abs(f[possible]), level)
@@ -312,7 +312,9 @@ def values_at(a: Array | float, h: Array | float, f: Array | float, accuracy: Ac
     rho = np.where(possible, np.where(f < 0.0, -1.0, 1.0) * rotation_numbers_of(rows), np.nan)
     with np.errstate(over="ignore"):
         trace = np.where(possible, 2.0 * np.abs(rows[:, 0]) * np.exp(np.minimum(rows[:, 3], 710.0)), np.nan)
-    return TorusValues(frozen(rho), frozen(trace), frozen(possible & (discriminant > 0.0)), frozen(possible))
+    return TorusValues(
+        as_read_only(rho), as_read_only(trace), as_read_only(possible & (discriminant > 0.0)), as_read_only(possible)
+    )
 
 
 def rotation_errors(a: Array | float, h: Array | float, f: Array | float, accuracy: Accuracy) -> Array:
@@ -341,12 +343,12 @@ def rotation_errors(a: Array | float, h: Array | float, f: Array | float, accura
     """
     level = as_level(accuracy)
     energies, fs = np.broadcast_arrays(*np.atleast_1d(h, f))
-    aside = neighbours(energies, fs, f_max_each(np.maximum(energies, -1.0)))
+    aside = neighbours(energies, fs, f_max_of_energies(np.maximum(energies, -1.0)))
     coarse, fine = values_at(a, h, f, level).rho, values_at(a, *aside, level.tighter()).rho
-    return frozen(SAFETY * np.abs(coarse - fine) + 4e-16)
+    return as_read_only(SAFETY * np.abs(coarse - fine) + 4e-16)
 
 
-def lock_curve(plane: str, torus: Torus, window: Sequence[float], accuracy: Accuracy, points: int = 48) -> Array:
+def tongue_curve(plane: str, torus: Torus, window: Sequence[float], accuracy: Accuracy, points: int = 48) -> Array:
     """Return the boundary |t| = 2 of the Arnold tongue, in a plane of parameters through a torus.
 
     Parameters
@@ -365,7 +367,7 @@ def lock_curve(plane: str, torus: Torus, window: Sequence[float], accuracy: Accu
     Returns
     -------
     ndarray, shape (n, 2)
-        Points of the boundary: in (h, f) that of `lock_boundary`, f ≥ 0, otherwise a over h or f, where it exists.
+        Points of the boundary: in (h, f) that of `tongue_boundary`, f ≥ 0, otherwise a over h or f, where it exists.
 
     Raises
     ------
@@ -376,11 +378,11 @@ def lock_curve(plane: str, torus: Torus, window: Sequence[float], accuracy: Accu
     """
     x0, x1 = window[:2]
     if plane == "h, f":
-        return lock_boundary(torus.a, accuracy, points)
+        return tongue_boundary(torus.a, accuracy, points)
     x = _abscissas(plane, torus, x0, x1, points)
     h, f = np.broadcast_arrays(x, torus.f) if plane == "h, a" else np.broadcast_arrays(torus.h, x)
-    curve = np.column_stack([x, critical_each(h, np.abs(f), accuracy, 20.0)])
-    return frozen(curve[np.isfinite(curve[:, 1])])
+    curve = np.column_stack([x, critical_a_of_tori(h, np.abs(f), accuracy, 20.0)])
+    return as_read_only(curve[np.isfinite(curve[:, 1])])
 
 
 def _abscissas(plane: str, torus: Torus, x0: float, x1: float, points: int) -> Array:
@@ -443,7 +445,7 @@ def perturbed_rotation(
         turn = first + 2.0 * zeta + 2.0 * np.angle(1.0 + ratio * np.exp(-1j * (phi + first)))
         total += weight * turn
         phi = np.remainder(phi + turn, 2.0 * math.pi)
-    return frozen(sign * total / (2.0 * math.pi))
+    return as_read_only(sign * total / (2.0 * math.pi))
 
 
 def parameter_at(rho: float, line: ParameterLine, accuracy: Accuracy) -> float | None:
@@ -477,7 +479,7 @@ def parameter_at(rho: float, line: ParameterLine, accuracy: Accuracy) -> float |
     changes = np.flatnonzero(both & (excess[1:] * excess[:-1] <= 0.0) & (np.abs(np.diff(values.rho)) < 0.25))
     if not changes.size:
         return None
-    from scipy.optimize import brentq  # imported here because it takes 0.3 s
+    from scipy.optimize import brentq  # Imported here because the import takes 0.3 s.
 
     i = int(changes[0])
     first, last = x[i : i + 2].tolist()
@@ -609,7 +611,7 @@ def concatenate(parts: Sequence[TorusValues]) -> TorusValues:
     """
     return TorusValues(
         *(
-            frozen(np.concatenate([getattr(part, name) for part in parts]))
+            as_read_only(np.concatenate([getattr(part, name) for part in parts]))
             for name in ("rho", "trace", "locked", "possible")
         )
     )
@@ -676,7 +678,7 @@ def perturbations_along(
     out = np.full(count, np.nan)
     if possible.any():
         out[possible] = perturbed_rotation(**line.tori(x[possible]), epsilon=epsilon, accuracy=accuracy, count=turns)
-    return frozen(out)
+    return as_read_only(out)
 
 
 def periodic_torus(rho: Fraction, line: ParameterLine, accuracy: Accuracy) -> PeriodicTorus | None:

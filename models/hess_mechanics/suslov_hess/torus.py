@@ -14,7 +14,7 @@ from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS, SAGITTA, sample_times
 from hess_mechanics.errors import Separatrix
 from hess_mechanics.numerics.accuracy import Accuracy
-from hess_mechanics.numerics.results import Array, Orbit, frozen
+from hess_mechanics.numerics.results import Array, Orbit, as_read_only
 from hess_mechanics.rigid_body.inertia import require_finite
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, turning_points
 from hess_mechanics.suslov_hess.circle_map import FixedPoint
@@ -65,11 +65,11 @@ def _in_body_units(body: HessBody, orbit: Orbit) -> Track:
     w1, w2 = orbit.states[:, 0], orbit.states[:, 1]
     states = body.from_reduced(body.from_units_of_b(orbit.states))
     return Track(
-        times=frozen(orbit.times / body.frequency_unit),
-        omega=frozen(states[:, :2].copy()),
-        gamma=frozen(states[:, 2:].copy()),
-        phi=frozen(np.arctan2(w1, w2)),
-        n3=frozen(orbit.states[:, 4].copy()),
+        times=as_read_only(orbit.times / body.frequency_unit),
+        omega=as_read_only(states[:, :2].copy()),
+        gamma=as_read_only(states[:, 2:].copy()),
+        phi=as_read_only(np.arctan2(w1, w2)),
+        n3=as_read_only(orbit.states[:, 4].copy()),
         orbit=orbit,
     )
 
@@ -224,7 +224,7 @@ def cycles(
     times = _times(body, start, turning.period, half_width)
     orbit = solve(SYSTEM.at((body.a, 1.0)), start, times, accuracy)
     mirrored = orbit.states[::-1] * np.array([-1.0, 1.0, -1.0, 1.0, 1.0])
-    image = replace(orbit, times=frozen(turning.period - orbit.times[::-1]), states=frozen(mirrored))
+    image = replace(orbit, times=as_read_only(turning.period - orbit.times[::-1]), states=as_read_only(mirrored))
     return _in_body_units(body, orbit), _in_body_units(body, image)
 
 
@@ -255,4 +255,4 @@ def annulus(body: HessBody, h: float, turning_points: TurningPoints | None) -> t
     inner, outer = (0.0, 2.0) if turning_points is None else (turning_points.initial_rho, turning_points.final_rho)
     s = np.linspace(0.0, 2.0 * math.pi, 181)
     unit = body.frequency_unit * np.column_stack([np.sin(s), math.hypot(1.0, body.a) * np.cos(s)])
-    return frozen(inner * unit), frozen(outer * unit)
+    return as_read_only(inner * unit), as_read_only(outer * unit)

@@ -90,7 +90,7 @@ class TorusSection(PoincareSection):
     @cached_property
     def measure(self) -> str:
         """The measure of `invariant_measure`, which exists where no cycle does."""
-        # The map degenerates where h + n3 = 0 is reached, for f = 0.
+        # The map degenerates for f = 0, where the motion reaches h + n3 = 0.
         with suppress(ModelError):
             if circle_map(self.a, self.h, self.f, PRECISE).kind == "elliptic":
                 return "the trace of the circle map is below 2, so the torus has a smooth invariant measure"

@@ -61,7 +61,7 @@ def test_bifurcations_of_the_map_of_henon(kind, start, end, period, place, exact
     one = the(found, kind)
     assert abs(one.value - exact) <= one.error + 1e-15
     assert one.error < 1e-8
-    low, high = found.values[one.after : one.after + 2]
+    low, high = found.values[one.index : one.index + 2]
     assert kind == "fold" or low < exact < high
     assert found.errors.max() < 1e-13
     assert found.period == period

@@ -28,7 +28,7 @@ def test_the_manifolds_of_a_bent_saddle_are_its_parabola_and_its_axis(side, stre
     assert unstable.length == approx(length_of_parabola(abs(x[-1])), abs=4e-3)
     assert unstable.multiplier == approx(2.5 if stretch > 0 else 1.7**2, abs=1e-12)
     # W(τ + 1) = F(W(τ)): where x is multiplied.
-    assert unstable.at(3.3)[0] / unstable.at(2.3)[0] == approx(unstable.multiplier, abs=1e-12)
+    assert unstable.point_at(3.3)[0] / unstable.point_at(2.3)[0] == approx(unstable.multiplier, abs=1e-12)
     assert heights_at(unstable, 0, 1.1 * side) == approx([1.21], abs=1e-13)
     assert heights_at(unstable, 1, 1.21) == approx([1.1 * side], abs=1e-13)
     with raises(NotConverged, match="greater length"):
@@ -46,7 +46,7 @@ def test_points_are_as_dense_as_the_curvature_asks():
         curve = manifold(m, saddle, 12.0, sagitta=sagitta, longest=1.0)
         counts.append(len(curve.points))
         # A finer curve tells how far the polyline is from what it stands for.
-        middles = [curve.at(0.5 * sum(curve.parameters[i : i + 2])) for i in range(1, len(curve.points) - 1)]
+        middles = [curve.point_at(0.5 * sum(curve.parameters[i : i + 2])) for i in range(1, len(curve.points) - 1)]
         chords = np.diff(curve.points[1:], axis=0)
         away = np.array(middles) - curve.points[1:-1]
         off = np.abs(chords[:, 0] * away[:, 1] - chords[:, 1] * away[:, 0]) / np.linalg.norm(chords, axis=1)
@@ -65,7 +65,7 @@ def test_homoclinic_points_of_henon_are_homoclinic():
     for one in found[:4]:
         assert one.error < 1e-9
         assert one.angle > 1e-3
-        assert one.certain
+        assert one.is_certain
         # It comes from the saddle and goes there.
         place = one.point
         closest = min(float(np.abs((place := m.image(place)) - saddle.points[0]).max()) for _ in range(12))
@@ -79,7 +79,7 @@ def test_curves_that_run_together_do_not_cross_for_certain(ripple, there):
     m = pendulum(0.0, 1.5, ripple)
     saddle = find_periodic(m, (0.01, 0.01), 1)
     unstable, stable = (manifold(m, saddle, 2.0, stable=stable, sagitta=1e-3) for stable in (False, True))
-    found = [one for one in crossings_of(unstable, stable) if one.certain]
+    found = [one for one in crossings_of(unstable, stable) if one.is_certain]
     assert bool(found) is there
     # (x, y) → (y, x) takes one curve to the other: of a homoclinic point that is its own image the places are equal.
     own = [one for one in found if abs(one.point[0] - one.point[1]) < 0.02]

@@ -35,7 +35,7 @@ def test_circles_are_as_far_apart_as_their_radii(r, R):
 
 def test_one_set_twice_is_no_distance_apart_but_its_grain():
     found = set_distance(PLANE, circle(1.0), circle(1.0))
-    assert found.settled
+    assert found.has_settled
     assert found.distance <= found.grain + found.error
     assert found.overlap > 0.8
     assert not found.is_separated
@@ -48,10 +48,10 @@ def test_places_of_periodic_orbits_have_no_grain_but_what_is_resolved():
     found = set_distance(PLANE, a, b)
     assert (found.distance, found.error, found.grain, found.is_separated) == (2.0, 0.0, 1e-6, True)
     assert distance(PLANE, a, a) == 0.0
-    assert found.settled
+    assert found.has_settled
     # An orbit that leaves one place for another has not settled.
     left = np.repeat([[0.0, 0.0], [1.0, 0.0]], 8, axis=0)
-    assert not set_distance(PLANE, left, left).settled
+    assert not set_distance(PLANE, left, left).has_settled
     with raises(InvalidParameter, match="for at least 8"):
         set_distance(PLANE, a[:7], b)
 
@@ -69,4 +69,4 @@ def test_the_grain_of_an_orbit_that_drifts_is_the_distance_of_its_halves():
     found = set_distance(PLANE, places, places)
     # The points 100 to 199 are 1/200 to 100/200 away from 99/200; of these distances 95 of 100 are up to 95.05/200.
     assert found.grain == approx(95.05 / 200.0, abs=1e-12)
-    assert not found.settled
+    assert not found.has_settled

@@ -37,8 +37,8 @@ def test_the_derivative_is_that_of_the_map_and_the_inverse_undoes_it(body, const
     assert np.abs(DP - differences(P.image, place, 1e-4)).max() < 1e-5 * np.abs(DP).max()
     assert np.abs(image - P.image(place)).max() < 1e-12
     assert np.abs(P.inverse().image(image) - place).max() < 1e-9
-    assert np.abs(P.after(place, 3) - P.image(P.image(image))).max() < 1e-9
-    assert np.abs(P.orbit(place, 3)[-1] - P.after(place, 3)).max() < 1e-8
+    assert np.abs(P.iterate(place, 3) - P.image(P.image(image))).max() < 1e-9
+    assert np.abs(P.orbit(place, 3)[-1] - P.iterate(place, 3)).max() < 1e-8
 
 
 def test_where_an_area_is_kept_the_determinant_says_so():

@@ -81,7 +81,7 @@ def test_crossings_are_those_that_an_integrator_of_another_family_finds(system):
 
 def crossings_by_kernel(system, state, parameters, normal, offset, end, tolerance):
     times, states = np.empty(10_000), np.empty((10_000, state.size))
-    found, steps = system.cross(
+    found, steps = system.crossing(
         state, parameters, normal, offset, 0, end, 18, tolerance, np.inf, 1_000_000, times, states
     )
     return times[:found], states[:found], steps

@@ -99,7 +99,7 @@ for a, h, f in ((0.5, 1.5, 0.6), (0.7, -0.9, 0.05), (60.0, 1.0, 0.9)):
     results[f"circle map {a} {h} {f}"] = [float(x) for x in values]
 found = hess_mechanics.rotation_numbers(0.5, np.array([0.1, 0.6]), np.array([0.05, 0.3]), level("standard"))
 results["rotation numbers"] = [float(x) for x in found.rho.tolist()]
-boundary = hess_mechanics.lock_boundary(0.5, level("draft"), 5)
+boundary = hess_mechanics.tongue_boundary(0.5, level("draft"), 5)
 results["lock boundary"] = [float(x) for x in boundary.ravel().tolist()]
 json.dump(results, sys.stdout)
 """

@@ -55,7 +55,7 @@ def test_a_result_at_other_points_has_a_truth_of_its_own():
             truths.append(plan.cells)
         return plan.cells
 
-    samples = measure(Kind.MAP, run, lambda result, truth: abs(result - truth), alike="cells")
+    samples = measure(Kind.MAP, run, lambda result, truth: abs(result - truth), shared_setting="cells")
     assert [one.error for one in samples] == [0.0] * 4
     # Levels with as many points share theirs.
     assert sorted(truths) == sorted({plan.cells for plan in PLANS[Kind.MAP].values()})
@@ -68,4 +68,4 @@ def test_the_truth_is_more_exact_than_every_level_and_has_other_points_where_the
     # A mean over returns and a polyline are not compared with as many of them; points of cells lie aside.
     returns = kind in (Kind.ROTATION, Kind.LINE)
     assert (truth.share, truth.cells) == (1.0 + returns, finest.cells * (1.0 + (kind == Kind.CURVE)))
-    assert truth.level.aside
+    assert truth.level.is_perturbed

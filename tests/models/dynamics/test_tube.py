@@ -58,7 +58,7 @@ def test_an_orbit_is_judged():
         known = np.max(np.abs(orbit.states - truth))
         assert proved.least - 1e-15 <= known <= proved.largest + 1e-15
         assert proved.least <= orbit.error_estimate
-    assert ProvedOrbit(fine, found, 1e-12).right_until == 3.0
+    assert ProvedOrbit(fine, found, 1e-12).valid_until == 3.0
     bounds, away = ProvedOrbit(rough, found).bounds, np.abs(rough.states - truth)
     assert np.all(away <= bounds + 1e-15)
     assert np.all(bounds <= away + 1e-15)
@@ -66,23 +66,23 @@ def test_an_orbit_is_judged():
     moved = fine.states.copy()
     moved[4, 2] += 1e-6
     wrong = ProvedOrbit(replace(fine, states=moved), found, 1e-7)
-    assert wrong.right_until == times[3]
+    assert wrong.valid_until == times[3]
     assert (wrong.least, wrong.largest) == approx((1e-6, 1e-6), rel=1e-6)
 
 
 def test_a_tube_ends_where_the_work_does():
     system = systems()["hess"]
     found = tube(*system.example_motion, [0.1, 0.5, 50.0], most_work=2e5)
-    assert (found.complete, found.work_limited) == (False, True)
+    assert (found.complete, found.reached_work_limit) == (False, True)
     assert found.times.tolist() == [0.1, 0.5]
     assert len(found.states) == 2
     more = tube(*system.example_motion, [0.1, 0.5, 3.0], most_work=1e6)
-    assert more.complete and not more.work_limited
+    assert more.complete and not more.reached_work_limit
     # Before the first of its times: nothing is proved.
     none = tube(*system.example_motion, [50.0], most_work=1e3)
     judged = ProvedOrbit(solve(*system.example_motion, [50.0], "draft"), none, 1.0)
     assert judged.bounds.shape == (0, 5)
-    assert judged.right_until == 0.0
+    assert judged.valid_until == 0.0
     assert np.isnan([judged.least, judged.largest]).all()
 
 

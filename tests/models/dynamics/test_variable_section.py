@@ -55,7 +55,11 @@ def returns():
 
 def test_a_section_has_defaults(returns):
     section = returns.section
-    assert (section.names, section.solved, section.surface.normal) == (("y", "py"), ("px",), (1.0, 0.0, 0.0, 0.0))
+    assert (section.names, section.dependent_variables, section.surface.normal) == (
+        ("y", "py"),
+        ("px",),
+        (1.0, 0.0, 0.0, 0.0),
+    )
     assert dict(section.constants) == {"lam": 1.0, "E": E}
     states, there = section.states_at(np.array([0.1, 0.2, 0.9]), np.array([0.05, 0.0, 0.5]))
     assert there.tolist() == [True, True, False]

@@ -8,7 +8,7 @@ from pytest import approx, mark, raises
 import oracle
 from hess_mechanics import level, systems
 from hess_mechanics.dynamics.system import Problem
-from hess_mechanics.dynamics.variation import onto_surface, tangent
+from hess_mechanics.dynamics.variation import return_derivative, tangent
 from hess_mechanics.errors import InvalidParameter, WorkLimit
 from support.thorough import sample
 
@@ -55,4 +55,4 @@ def test_what_cannot_be_is_refused_in_a_sentence():
     with raises(WorkLimit, match="separate beyond the range of double precision: choose a shorter time span"):
         flow(SUSLOV.at((1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)), (0.0, 0.0, 0.0, 0.0, 1.0), 800.0, PRECISE)
     with raises(InvalidParameter, match="touches the surface"):
-        onto_surface(np.eye(2), np.array([1.0, 0.0]), np.array([0.0, 1.0]))
+        return_derivative(np.eye(2), np.array([1.0, 0.0]), np.array([0.0, 1.0]))

@@ -16,8 +16,8 @@ from hess_mechanics.dynamics.work_precision import (
     WorkPoint,
     growth,
     measure_levels,
-    measure_others,
-    others_take_long,
+    measure_scipy,
+    scipy_takes_long,
 )
 from hess_mechanics.errors import WorkLimit
 from hess_mechanics.numerics.accuracy import LEVELS
@@ -76,7 +76,7 @@ def test_errors_and_pixels_are_those_against_another_method(change):
 def test_the_methods_of_scipy_are_six_points_with_their_errors():
     motion = motion_of(span=10.0)
     times = np.linspace(0.0, motion.duration, SAMPLES)
-    points = measure_others(*motion.arguments, SAMPLES)
+    points = measure_scipy(*motion.arguments, SAMPLES)
     wanted = product(("DOP853", "LSODA"), ("1e-04", "1e-07", "1e-10"))
     for point, (method, tolerance) in zip(points, wanted, strict=True):
         assert (point.method, point.setting) == (method, tolerance)
@@ -96,8 +96,8 @@ def test_the_methods_of_scipy_are_six_points_with_their_errors():
 def test_the_methods_of_scipy_are_left_out_beyond_150_times_the_shortest_period():
     for motion in (motion_of(h=3.0, f=-1.0), motion_of(I22=2.0, I23=1.0)):
         longest = 150.0 / unit_of(motion)
-        assert not others_take_long(*motion.arguments[:3], longest * (1.0 - 1e-12))
-        assert others_take_long(*motion.arguments[:3], longest * (1.0 + 1e-12))
+        assert not scipy_takes_long(*motion.arguments[:3], longest * (1.0 - 1e-12))
+        assert scipy_takes_long(*motion.arguments[:3], longest * (1.0 + 1e-12))
 
 
 def test_a_method_of_scipy_asks_in_mid_run_whether_to_go_on():
@@ -110,7 +110,7 @@ def test_a_method_of_scipy_asks_in_mid_run_whether_to_go_on():
             raise WorkLimit("enough")
 
     with work_limit(end, lambda seconds: None), raises(WorkLimit, match="enough"):
-        measure_others(*motion_of(span=40.0).arguments, SAMPLES)
+        measure_scipy(*motion_of(span=40.0).arguments, SAMPLES)
 
 
 # ---- the scene ------------------------------------------------------------------------------------------------------

@@ -28,7 +28,7 @@ def test_a_closed_curve_that_does_not_go_round_has_no_number():
     orbits = [circle(GOLDEN / 3.0, radius=radius) for radius in (0.1, 0.3)] + [rotating(0.3 * GOLDEN)]
     found = rotation_along(ends, [0.1, 0.2, 0.3], orbits, about_first=False, count=10)
     assert found.librations == approx([-0.4, -0.3])
-    assert found.sea.size == 0
+    assert found.chaotic_intervals.size == 0
     assert found.numbers == approx([0.3 * GOLDEN], abs=1e-6)
     assert found.points == approx([-0.2])
     # About a centre inside, the same circle has one.

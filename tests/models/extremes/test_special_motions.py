@@ -50,9 +50,9 @@ def test_held_on_the_manifold_euler_poisson_is_suslovs_motion(bridge, h, share):
     exact = bridge.hess.in_units_of_b(bridge.hess.to_reduced(suslov.states))
 
     def error(name):
-        run = run_free(bridge.heavy, start, times[-1], times.size, name, held=True)
+        run = run_free(bridge.heavy, start, times[-1], times.size, name, constrained=True)
         # Off the manifold the two have no state in common.
-        assert np.max(np.abs(run.off)) < 1e-12
+        assert np.max(np.abs(run.offset)) < 1e-12
         return np.max(bridge.distance(run.states, exact)) / sqrt(2.0 * (h + 1.0))
 
     assert_promised(error, floor=2e-11)

@@ -42,7 +42,7 @@ def test_the_local_error_of_one_step_has_the_order_of_the_series(truth, order):
         )
         inverses = np.array([1 / mpmath.mpf(k + 1) for k in range(order)])
         c[0] = state
-        expand(c, left, right, inverses, parameters, np.empty((order, system.recursion.seen), object))
+        expand(c, left, right, inverses, parameters, np.empty((order, system.recursion.outputs), object))
         errors = []
         for h in STEPS:
             increments = [0] * len(state)

@@ -10,7 +10,7 @@ from pytest import fixture, mark, raises
 import hess_mechanics
 from hess_mechanics import System
 from hess_mechanics.numerics import jit
-from hess_mechanics.numerics.jit import announced, kernel
+from hess_mechanics.numerics.jit import kernel, with_compile_notice
 from hess_mechanics.numerics.patience import work_limit
 
 PACKAGE = Path(hess_mechanics.__file__).parent
@@ -174,7 +174,7 @@ class Cancelled(Exception):
 
 def test_a_long_compilation_is_announced_and_ends_with_its_request(caplog, tmp_path, monkeypatch):
     monkeypatch.setattr(jit, "CACHE_FOLDER", tmp_path)
-    double = announced(kernel(lambda x: 2.0 * x), "a double", 100.0)
+    double = with_compile_notice(kernel(lambda x: 2.0 * x), "a double", 100.0)
     asked = []
 
     def check():
@@ -189,5 +189,5 @@ def test_a_long_compilation_is_announced_and_ends_with_its_request(caplog, tmp_p
     assert double(1.0) == 2.0
     # Now it is compiled, and a kernel that takes no longer than most says nothing.
     caplog.clear()
-    assert (double(3.0), announced(kernel(lambda x: 3.0 * x), "a triple", 10.0)(1.0)) == (6.0, 3.0)
+    assert (double(3.0), with_compile_notice(kernel(lambda x: 3.0 * x), "a triple", 10.0)(1.0)) == (6.0, 3.0)
     assert caplog.text == ""

@@ -39,7 +39,7 @@ def expanded(recursion, y, p, order, number=float):
     c, left, right = (np.full((order + 1, n), zero, dtype=object) for n in (len(y), columns, columns))
     c[0] = y
     inverses = np.array([1 / (zero + k + 1) for k in range(order)], dtype=object)
-    seen = np.full((order, recursion.seen), zero, dtype=object)
+    seen = np.full((order, recursion.outputs), zero, dtype=object)
     functions["expand"](c, left, right, inverses, p, seen)
     return c, seen
 
@@ -82,7 +82,7 @@ REFUSED = {
     "complex": (lambda y, p: (y[0] * 1j, y[1]), r"cannot be traced: .*Use \+, −, \*, /"),
     "division by 0": (lambda y, p: (y[0] / 0, y[1]), "cannot be traced: .*divides by 0"),
     "text": (lambda y, p: (y[0] / (p[0] - p[0] * 1 + y[0] * 0), "y"), "cannot be traced: "),
-    "missing variable": (lambda y, p: (y[0], y[5]), "reads beyond its 2 variables.*the first index is 0"),
+    "missing variable": (lambda y, p: (y[0], y[5]), "reads beyond its 2 variables.*count the indices from 0"),
     "three rates": (lambda y, p: (y[0],) * 3, "2 variables and returns 3 rates: return one for each"),
     "condition": (
         lambda y, p: (np.where(y[0] > 0, 1.0, 2.0), y[1]),
@@ -124,9 +124,9 @@ def observed_jacobian(field, y, p, number=float):
     of, n = variation(field, len(y), len(p)), len(y)
     _, seen = expanded(of.recursion, y, p, 1, number)
     found = np.full((n, n), number("0"), dtype=object)
-    for place, value in zip((*of.moving, *of.fixed), seen[0], strict=False):
+    for place, value in zip((*of.state_entries, *of.constant_entries), seen[0], strict=False):
         found[place] = value
-    return found, seen[0, of.recursion.observed - 1], of
+    return found, seen[0, of.recursion.observables - 1], of
 
 
 @mark.parametrize("field", FUNCTIONS_OF_FIELDS.values(), ids=FUNCTIONS_OF_FIELDS)
@@ -144,7 +144,7 @@ def test_functions_have_their_taylor_series_and_derivatives(field):
     assert slopes.astype(float) == approx(here, rel=1e-12)
     assert divergence == approx(np.trace(here), rel=1e-12)
     # A constant entry has no second derivatives.
-    assert all(not exact[place].free_symbols for place in of.fixed)
+    assert all(not exact[place].free_symbols for place in of.constant_entries)
 
 
 def test_arrays_of_symbols_are_fields_too():
@@ -163,7 +163,7 @@ def test_a_derivative_of_what_is_no_symbol_is_none():
         assert derivative(p[0] * y[1], y[0]) == 0
         return y[1] / (1 + y[0] ** 2), -(y[0] ** 3), derivative(y[0] ** 3, y[0])
 
-    found = trace(field, 2, 1, observed=1)
-    assert found.observed == 1
+    found = trace(field, 2, 1, observables=1)
+    assert found.observables == 1
     with raises(NotTraceable, match="2 variables and returns 1 rates"):
-        trace(lambda y, p: (y[0], 1.0), 2, 1, observed=1)
+        trace(lambda y, p: (y[0], 1.0), 2, 1, observables=1)

@@ -44,7 +44,7 @@ def vector(exact, w1, w2):
 def test_F2_is_conserved_exactly(k, I22, I23):
     # dF2/dt is a polynomial in ω, and vanishes.
     exact = coefficients(k, I22, I23)
-    assert exact.rest == 0
+    assert exact.remainder == 0
     I11 = I22 + k * k * I23**2 / I22
     w1, w2 = sympy.symbols("w1 w2")
     V = sympy.Matrix([sympy.nsimplify(v) for v in vector(exact, w1, w2)])

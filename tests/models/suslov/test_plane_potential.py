@@ -68,8 +68,8 @@ def test_the_period_of_a_motion_is_the_time_between_two_crossings_of_the_equator
     body, start = body_of(name, 1.3, 0.8), (0.9, -0.7, 0.48, 0.6, 0.64)
     both = section(body, start, Plane((0.0, 0.0, 0.0, 0.0, 1.0)), 400.0, "reference", 2)
     found = motion_from(body, start, 40.0, "precise")
-    assert (found.period, found.fixed) == (approx(float(both.times[1] - both.times[0]), abs=1e-8), False)
-    assert motion_from(body, (0.6, 0.8, 0.6, 0.8, 0.0), 5.0, "standard").fixed
+    assert (found.period, found.is_fixed_point) == (approx(float(both.times[1] - both.times[0]), abs=1e-8), False)
+    assert motion_from(body, (0.6, 0.8, 0.6, 0.8, 0.0), 5.0, "standard").is_fixed_point
 
 
 @every_potential

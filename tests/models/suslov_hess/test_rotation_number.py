@@ -13,10 +13,10 @@ from hess_mechanics.suslov_hess.rotation_number import (
     PLANES,
     ParameterLine,
     Torus,
-    lock_curve,
     parameter_at,
     perturbed_rotation,
     return_error,
+    tongue_curve,
     values_at,
 )
 from support.refusals import refused
@@ -58,16 +58,16 @@ def test_at_the_separatrix_there_is_no_map():
 def test_on_the_lock_curve_the_trace_is_two_and_to_one_side_it_locks(plane):
     torus = Torus(0.5, 0.8, 0.7)
     window = (0.3, 0.9, 0.0, 2.0) if plane != "h, f" else (-1.0, 4.0, -3.0, 3.0)
-    curve = lock_curve(plane, torus, window, REFERENCE, points=7)
+    curve = tongue_curve(plane, torus, window, REFERENCE, points=7)
     assert len(curve) >= 5
     names = plane.split(", ")
     # In (h, f) it runs from the edge of the region to the saddle, and locks to the right.
     across = 0 if plane == "h, f" else 1
     for place in curve[1:-1]:
-        here = torus.at(**dict(zip(names, place.tolist(), strict=True)))
+        here = torus.with_values(**dict(zip(names, place.tolist(), strict=True)))
         assert values_at(**vars(here), accuracy=REFERENCE).trace[0] == approx(2.0, abs=1e-9)
         beside = (place + step * np.eye(2)[across] for step in (-1e-3, 1e-3))
-        sides = [torus.at(**dict(zip(names, point.tolist(), strict=True))) for point in beside]
+        sides = [torus.with_values(**dict(zip(names, point.tolist(), strict=True))) for point in beside]
         assert [bool(values_at(**vars(side), accuracy=PRECISE).locked[0]) for side in sides] == [False, True]
 
 
@@ -85,12 +85,12 @@ def test_on_the_lock_curve_the_trace_is_two_and_to_one_side_it_locks(plane):
 def test_at_a_rational_number_every_orbit_is_periodic_and_not_elsewhere(p, q, name, torus, low, high):
     place = parameter_at(p / q, ParameterLine(name, torus, low, high), REFERENCE)
     assert low < place < high
-    found = torus.at(**{name: place})
+    found = torus.with_values(**{name: place})
     assert iterated(*vars(found).values(), count=1000 * q) == approx(p / q, abs=1e-6)
     assert return_error(found, q, REFERENCE) < 1e-12
     # No smaller number of returns, and not beside it.
     assert min(return_error(found, n, REFERENCE) for n in range(1, q)) > 0.1
-    assert return_error(found.at(**{name: place + 1e-4}), q, REFERENCE) > 1e-5
+    assert return_error(found.with_values(**{name: place + 1e-4}), q, REFERENCE) > 1e-5
 
 
 @mark.parametrize(

@@ -17,9 +17,10 @@ class Answer(Generic[S]):
     ----------
     sentence : str
         At most 90 characters, which fit on a line.
-    when : callable
-        `when(state)` returns whether it holds, by a closed form or a result that the pictures need; by default always.
+    condition : callable
+        `condition(state)` returns True if the sentence holds, by a closed form or a result that the pictures need; by
+        default always.
     """
 
     sentence: str
-    when: Callable[[S], bool] = lambda _: True
+    condition: Callable[[S], bool] = lambda _: True

@@ -27,8 +27,10 @@ D = replace(
     bounds=(0.0, 1e2),
     doc="𝒟 = (R/Rₛ)² Iₛ of the ball that rolls inside.",
 )
-B1 = replace(parameters.B1, default=0.5, softbounds=_NEAR_0, bounds=_FIELD, doc="b = −mg r, r the centre of mass.")
-B2 = replace(parameters.B2, default=0.0, softbounds=_NEAR_0, bounds=_FIELD, doc="b = −mg r.")
+B1 = replace(
+    parameters.B1, default=0.5, softbounds=_NEAR_0, bounds=_FIELD, doc="b = −mg r, where r is the centre of mass."
+)
+B2 = replace(parameters.B2, default=0.0, softbounds=_NEAR_0, bounds=_FIELD, doc="Component of b = −mg r.")
 B3 = replace(
     parameters.B3,
     default=0.8,

@@ -17,7 +17,7 @@ COARSE = 3
 """Fine cells along each side of a coarse one: odd, so that the middle of the coarse cell is that of a fine one."""
 
 DENSITY = "density"
-"""The choice of what lies under the points of a section that counts crossings."""
+"""Choice that shows the density of crossings under the points of a section."""
 
 Arguments = tuple[Any, ...]
 
@@ -47,7 +47,7 @@ def cells_by_rows(
     cells: Array | None = None
     left = 0
     for stage, rows in enumerate(stages):
-        # Every third row first, so that the whole window becomes finer.
+        # Compute every third row first, so that the whole window becomes finer evenly.
         order = [i for begun in range(COARSE) for i in range(begun, len(rows), COARSE)]
         found = {i: row for i in order if (row := work.need(Task(row_of, *rows[i]), preview=None)) is not None}
         left = len(rows) - len(found)

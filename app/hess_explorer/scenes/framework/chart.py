@@ -23,7 +23,7 @@ from hess_explorer.scenes.framework.charted import Charts, Numbers
 from hess_explorer.scenes.framework.part import Part, part
 from hess_explorer.scenes.framework.sliders import declare, specs_of
 from hess_explorer.scenes.framework.trial import bare_state
-from hess_explorer.scenes.framework.windows import Window, box_window, tidy_window, window_of
+from hess_explorer.scenes.framework.windows import Window, box_window, normalized_window, window_of
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import CellGrid, Positions, crop
 from hess_explorer.views.picture import Corners
@@ -79,7 +79,7 @@ class _Chart(Part[Any]):
         """The visible window."""
         x, y = self.axes
         whole = (x.ends[0], y.ends[0]), (x.ends[1], y.ends[1])
-        return window_of(tidy_window(self.host.chart_window), STORED.get(self.key, ((), whole))[1])
+        return window_of(normalized_window(self.host.chart_window), STORED.get(self.key, ((), whole))[1])
 
     @cached_property
     def _rows(self) -> tuple[Array, int, Window] | None:
@@ -87,9 +87,9 @@ class _Chart(Part[Any]):
         if self.key in STORED:
             cells, window = STORED[self.key]
             return cells, 0, window
-        # Request the number of this state before those of the cells.
+        # Request the number of this state before the numbers of the cells.
         _ = self.own
-        more = self.key.source.computation.many is not None
+        more = self.key.source.computation.vectorized is not None
         counts = [_FIRST * COARSE**stage for stage in range(_STAGES + more)]
         rows = [[(self.key, self.window, count, row) for row in range(count)] for count in counts]
         found = cells_by_rows(self.work, chart_row, rows)

@@ -16,7 +16,7 @@ from hess_explorer.scenes.framework.windows import Window
 from hess_explorer.views.layers import Range
 from hess_mechanics.dynamics.cells import centres
 from hess_mechanics.numerics.accuracy import Level
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, as_read_only
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ def _evaluate_cells(source: ChartSource, number: str, chosen: Level, cells: tupl
     columns = dict(zip(names, np.array(cells, float).T, strict=True))
     found = evaluate(source.computation, (number,), columns, chosen)
     errors = found.errors.get(number, np.full(len(cells), np.nan))
-    return frozen(np.stack([found.values[number], errors, found.status]))
+    return as_read_only(np.stack([found.values[number], errors, found.status]))
 
 
 def chart_row(cells: Cells, window: Window, count: int, row: int) -> Array:
@@ -90,9 +90,9 @@ def chart_row(cells: Cells, window: Window, count: int, row: int) -> Array:
         except Exception as error:
             found[2, i], _ = failure(error, {cells.x.name: x, cells.y.name: y})
     if known:
-        # Compare arguments instead of states: other parameters of the scene do not change the cells.
+        # Compare arguments instead of states, because the cells do not depend on the other parameters of the scene.
         found[:, [*known]] = Task(_evaluate_cells, cells.source, cells.number, cells.level, tuple(known.values())).get()
-    return frozen(found)
+    return as_read_only(found)
 
 
 STORED: dict[Cells, tuple[Array, Window]] = {}

@@ -18,8 +18,8 @@ from hess_mechanics.numerics.results import Array
 from hess_mechanics.parameters import CIRCLE_PHASE, Parameter
 
 CIRCLES = (
-    Sign("circle joined", "line", f"border-top: 3px solid {theme.STABLE}"),
-    Sign("circle left", "line", f"border-top: 3px dashed {theme.UNSTABLE}"),
+    Sign("limit circle for t → ∞", "line", f"border-top: 3px solid {theme.STABLE}"),
+    Sign("limit circle for t → −∞", "line", f"border-top: 3px dashed {theme.UNSTABLE}"),
     Sign("fixed points Γ = ±1", "dot", f"background: {theme.MUTED}"),
 )
 """Entries of the legend."""
@@ -33,7 +33,7 @@ DIGITS = Parameter(
     (2.0, 8.0),
     0.05,
     (2.0, 10.0),
-    "The chosen orbit starts δ = 10^−digits of |ω| away from Nᵘ.",
+    "Distance of the start of the chosen orbit from Nᵘ: δ = 10^−digits of |ω|.",
 )
 
 S = TypeVar("S")

@@ -55,7 +55,7 @@ class Continuation(Part[H_co]):
 
     @property
     @abstractmethod
-    def begin(self) -> BranchStart | None:
+    def branch_start(self) -> BranchStart | None:
         """The start of the branch; None if no branch is requested."""
 
     @property
@@ -76,7 +76,7 @@ class Continuation(Part[H_co]):
     @cached_property
     def _target(self) -> ClosedOrbit | NotFound | None:
         """The orbit to continue, or the reason why there is none; None until known."""
-        return None if self.begin is None else self.work.need(self.begin.search, preview=None)
+        return None if self.branch_start is None else self.work.need(self.branch_start.search, preview=None)
 
     @property
     def closed_orbit(self) -> ClosedOrbit | None:
@@ -89,7 +89,7 @@ class Continuation(Part[H_co]):
         found: list[mechanics.Branch] = []
         failed: list[str] = []
         whole = True
-        begin = self.begin
+        begin = self.branch_start
         if begin is None or self.closed_orbit is None:
             return found, failed, False
         low, high = begin.ends
@@ -114,7 +114,7 @@ class Continuation(Part[H_co]):
         """The known pieces of the branch."""
         return self._pieces[0]
 
-    # ---- the mouse ----------------------------------------------------------------------------------------------
+    # ---- mouse events -------------------------------------------------------------------------------------------
 
     def _pixels(self, values: Array, points: Array, x: float, y: float) -> Array:
         """Return the pixels (n, 2) from (x, y) to points (n, d) at values (n,) of the parameter."""
@@ -141,7 +141,7 @@ class Continuation(Part[H_co]):
     def orbit_at(self, x: float, y: float) -> tuple[float, Point, int] | None:
         """Return parameter, point and period of the branch's orbit at (x, y); None away from the branch."""
         near = self._nearest(x, y)
-        if near is None or self.begin is None:
+        if near is None or self.branch_start is None:
             return None
         _, branch, i, share, j = near
         turns = self.host.poincare.turns
@@ -149,7 +149,7 @@ class Continuation(Part[H_co]):
         between = np.roll(a + share * difference(turns, b, a), -j, axis=0)
         value = float(first + share * (second - first))
         try:
-            point = find_periodic(self.begin.family.map_at(value), between, m).points[0]
+            point = find_periodic(self.branch_start.family.map_at(value), between, m).points[0]
         except ModelError:
             check_limit()
             value, point = float(first), a[j]
@@ -179,7 +179,7 @@ class Continuation(Part[H_co]):
             f"{branch.kinds[i]}, μ = {multipliers}"
         )
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _bifurcation_text(self, one: Bifurcation) -> str:
         value = f"{digits(one.value, 8)} ± {digits(one.error, 1)}"
@@ -188,7 +188,7 @@ class Continuation(Part[H_co]):
     @property
     def caption(self) -> Caption:
         """The caption of the branch."""
-        if self.begin is None or isinstance(self._target, NotFound):
+        if self.branch_start is None or isinstance(self._target, NotFound):
             return Caption("No periodic orbit found near this point.")
         if self.closed_orbit is None:
             return Caption(self.work.pending_caption("A periodic orbit is"))
@@ -221,11 +221,11 @@ class Continuation(Part[H_co]):
             return
         if isinstance(self._target, NotFound):
             yield self._target.reason
-        if self.begin is None or self.closed_orbit is None:
+        if self.branch_start is None or self.closed_orbit is None:
             return
         found, failed, whole = self._pieces
         yield from failed
-        open_ends = 2 - (self.begin.value in self.begin.ends)
+        open_ends = 2 - (self.branch_start.value in self.branch_start.ends)
         if whole and not failed and sum(one.heading is None for one in found) < open_ends:
             yield "The branch continues, but is not computed further."
         ended = [

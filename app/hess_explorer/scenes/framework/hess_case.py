@@ -32,7 +32,7 @@ from hess_mechanics.numerics.accuracy import Level
 from hess_mechanics.numerics.balls import Enclosure, exact
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints, f_max, turning_points
-from hess_mechanics.suslov_hess.certificate import claim
+from hess_mechanics.suslov_hess.certificate import statement_text
 from hess_mechanics.suslov_hess.circle_map import CircleMap, circle_map
 from hess_mechanics.suslov_hess.edge import TWO_EQUILIBRIA, EdgeProof
 from hess_mechanics.suslov_hess.embedding import embed
@@ -53,14 +53,14 @@ CYCLE_TRACKS: Mapping[str, Callable[[Any], Columns | None]] = {
 }
 """The tracks of the limit cycles of a state, see `limit_cycles`."""
 
-LOOPS_MEET: Answer[Any] = Answer(
+CYCLES_MERGE: Answer[Any] = Answer(
     "The two loops have just met: here they appear or vanish.",
     lambda s: s.map is not None and s.map.kind == "parabolic" and bool(s.map.fixed_points),
 )
 """The sentence on a state with one limit cycle, not on the identity, whose map is parabolic, too."""
 
 UNSURE = 1e-9
-BY_THE_UNSTABLE_CYCLE = "This motion starts next to the unstable cycle: there round-off grows even on the torus."
+NEAR_UNSTABLE_CYCLE = "This motion starts next to the unstable cycle: there round-off grows even on the torus."
 
 I22 = replace(
     known.I22,
@@ -73,7 +73,7 @@ I23 = replace(
     default=0.28,
     doc="Product of inertia. a = I₂₃/I₂₂ tilts the circular section; a = 0 decouples the motion.",
 )
-# Without a field in this direction there is no Hess case.
+# The Hess case needs a field in this direction.
 B3 = replace(
     known.B3,
     default=-1.0,
@@ -154,9 +154,9 @@ def proved_statement(I22: float, I23: float, h: float, f: float) -> ProvedStatem
         return ProvedStatement("Not proved.", f"Not proved: {error}")
     if isinstance(found, EdgeProof):
         moves = "two equilibria" if found.statement == TWO_EQUILIBRIA else "one periodic orbit"
-        return ProvedStatement(f"Proved: no torus, but a circle with n₃ constant: {moves}.", claim(found))
+        return ProvedStatement(f"Proved: no torus, but a circle with n₃ constant: {moves}.", statement_text(found))
     if found.statement == NO_CYCLE:
-        # With enough digits to show that it is less than 2.
+        # Print enough digits to show that |t| is less than 2.
         least = next(count for count in itertools.count(4) if Fraction(found.trace.decimals(count)[1]) < 2)
         return ProvedStatement(
             f"Proved: no cycle, |trace| in {_within(found.trace, least)}.",

@@ -8,7 +8,7 @@ from typing import TypeVar
 
 from hess_mechanics.dynamics.plane_section import SectionPoints
 from hess_mechanics.dynamics.return_map import PoincareSection
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, as_read_only
 
 _TOGETHER = 4
 """Orbits computed together: few enough that points arrive soon."""
@@ -24,7 +24,7 @@ class OrbitBatch:
     ----------
     orbits : tuple of array (n, 2)
         Points of each orbit, in order of time.
-    firsts : tuple of bool
+    first_kind : tuple of bool
         True for orbits of the first of two kinds.
     drift : mapping of str to float
         Largest relative drift of each integral.
@@ -34,22 +34,22 @@ class OrbitBatch:
         Reason why each orbit ends early; empty for a complete orbit.
     same_side : tuple of bool
         True if all points of an orbit lie on one side of the curve that separates both kinds.
-    elsewhere : array (m, 2) or None
+    other_sheets : array (m, 2) or None
         Points that are drawn separately.
     """
 
     orbits: tuple[Array, ...]
-    firsts: tuple[bool, ...]
+    first_kind: tuple[bool, ...]
     drift: Mapping[str, float]
     steps: int
     reasons: tuple[str, ...]
     same_side: tuple[bool, ...] = ()
-    elsewhere: Array | None = None
+    other_sheets: Array | None = None
 
 
 def batch_of(section: PoincareSection, points: SectionPoints, first: bool = True) -> OrbitBatch:
     """Return crossings of a section, in its coordinates, as a batch of one kind."""
-    orbits = tuple(frozen(section.points_of(states)) for states in points.states)
+    orbits = tuple(as_read_only(section.points_of(states)) for states in points.states)
     return OrbitBatch(orbits, (first,) * len(orbits), points.drift, points.cost.steps, points.reasons)
 
 

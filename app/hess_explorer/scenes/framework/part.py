@@ -55,19 +55,19 @@ class Part(Generic[H_co]):
         return self.host.work
 
     def has_result(self, name: str) -> bool:
-        """Return whether a visible picture has computed this cached property; texts compute nothing."""
+        """Return whether a visible picture has computed this cached property, because texts start no computation."""
         return name in vars(self)
 
     def corrections(self, notes: list[str]) -> Values:
         """Return the parameter changes that make the state valid; append a note for each of them."""
         return {}
 
-    def idle(self) -> Mapping[str, float]:
+    def idle_values(self) -> Mapping[str, float]:
         """Return the parameters without effect in this state, with the values shown by their disabled controls."""
         return {}
 
     def meanings(self) -> Mapping[str, str]:
-        """Return the meanings, as `NumberSpec.means`, of the parameters whose meaning depends on a choice."""
+        """Return the meanings, as `NumberSpec.meaning`, of the parameters whose meaning depends on a choice."""
         return {}
 
     def adjustments(self, before: Self) -> Values:

@@ -22,15 +22,15 @@ BranchChoice = tuple[int, bool, int]
 NONE, ANY = "none", "any period"
 _MOST = 12
 PERIODS: Mapping[str, int | None] = {ANY: None, **{f"period {m}": m for m in range(1, _MOST + 1)}}
-MOST_POINTS, _RETURNS = 2000, 20_000
+MAX_POINTS, _RETURNS = 2000, 20_000
 """Largest numbers of points of a branch, and of returns of the map for all its points together."""
-MOST_CROSSINGS = 25
+MAX_CROSSINGS = 25
 """Largest number of crossings of two branches."""
 _SAGITTA, _CHORD = 0.25, 10.0
 """Largest sagitta and chord of the drawn curves, in pixels."""
 _PARTS = (1.0, 0.5, 0.25)
 """Shares of the requested length, tried in order until the branch is right to half a pixel."""
-AT_ITS_LENGTH = "At its length."
+LENGTH_REACHED = "At its length."
 _UNKNOWN = "What follows is not known to half a pixel: a higher accuracy may show it."
 
 
@@ -61,7 +61,7 @@ class NotFound:
 
 
 class Periodic(Protocol):
-    """The periodic orbit shown in place of the chosen one."""
+    """The periodic orbit shown in place of the chosen orbit."""
 
     @property
     def closed_orbit(self) -> ClosedOrbit | None:
@@ -104,7 +104,7 @@ def find_orbit(map_: ReturnMap, aim: Point, period: int | None, near: bool) -> C
             map_.time_of(first, orbit.period),
         )
     except ModelError as error:
-        # A cancelled request or one over its budget must not cache a result.
+        # Raise if the request was cancelled or is over its budget, so that no result is cached.
         check_limit()
         return NotFound(str(error))
 
@@ -125,7 +125,7 @@ def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float)
                 index=index,
                 sagitta=_SAGITTA * pixel,
                 longest=_CHORD * pixel,
-                most=MOST_POINTS,
+                most=MAX_POINTS,
                 returns=_RETURNS,
             )
         except ModelError as error:
@@ -143,4 +143,4 @@ def crossings_between(
     one, other = (Task(branch_of, search, branch, length, pixel).get() for branch in (unstable, stable))
     if isinstance(one, NotFound) or isinstance(other, NotFound):
         return ()
-    return tuple(crossings_of(one, other, MOST_CROSSINGS))
+    return tuple(crossings_of(one, other, MAX_CROSSINGS))

@@ -128,13 +128,13 @@ class State:
 
     @property
     def level(self) -> Level:
-        """The level of accuracy; during a drag the cheapest one with an error below half a pixel."""
+        """The level of accuracy; during a drag the cheapest level with an error below half a pixel."""
         return self.work.level
 
     @property
-    def dragging(self) -> bool:
+    def is_preview(self) -> bool:
         """True while a slider is held."""
-        return self.work.dragging
+        return self.work.is_preview
 
     def plan(self, kind: Kind, steady: bool = False) -> Plan:
         """Return the settings of the level for a kind of computation.
@@ -175,15 +175,15 @@ class State:
         """Return the ranges of sliders that depend on the state."""
         return {}
 
-    def idle(self) -> Mapping[str, float]:
+    def idle_values(self) -> Mapping[str, float]:
         """Return the parameters without effect in this state, with the values shown by their disabled controls.
 
         Raises `ModelError` if they cannot be determined.
         """
-        return {name: value for one in self.parts() for name, value in one.idle().items()}
+        return {name: value for one in self.parts() for name, value in one.idle_values().items()}
 
     def meanings(self) -> Mapping[str, str]:
-        """Return the meanings, as `NumberSpec.means`, of the parameters whose meaning depends on a choice."""
+        """Return the meanings, as `NumberSpec.meaning`, of the parameters whose meaning depends on a choice."""
         return {name: meaning for one in self.parts() for name, meaning in one.meanings().items()}
 
     def adjustments(self, before: Self) -> Values:
@@ -198,7 +198,7 @@ class State:
         }
 
     def motion(self) -> Motion | None:
-        """Return the current motion, for "Speed and accuracy"; None without one.  Raises `ModelError`."""
+        """Return the current motion, for "Speed and accuracy"; None without a motion.  Raises `ModelError`."""
         return None
 
     def quantities(self) -> Iterable[str]:
@@ -236,7 +236,7 @@ class Scene(Generic[S]):
         Columns shared by several pictures and the player, which follows the column t of "orbit".
     angles : tuple of str
         Columns of "orbit" that are angles, in radians.
-    measures : tuple of Trial
+    level_trials : tuple of Trial
         Computations in addition to the motion whose cost and error are measured at each level.
     charts : Charts, optional
         Numbers that can be charted over the parameters.
@@ -264,7 +264,7 @@ class Scene(Generic[S]):
     views: tuple[Picture[S], ...]
     tracks: Mapping[str, Callable[[S], Columns | None]] = field(default_factory=dict)
     angles: tuple[str, ...] = ()
-    measures: tuple[Trial[S], ...] = ()
+    level_trials: tuple[Trial[S], ...] = ()
     charts: InitVar[Charts | None] = None
     swarm: InitVar[Swarm[S] | None] = None
     place: int = 0
@@ -319,7 +319,7 @@ class Scene(Generic[S]):
 
     def answer(self, state: S) -> str:
         """Return the sentence on a state.  Raises `ModelError`."""
-        return next((one.sentence for one in self.answers if one.when(state)), self.summary)
+        return next((one.sentence for one in self.answers if one.condition(state)), self.summary)
 
     def drawing(self, name: str) -> str:
         """Return the SVG file of an image in the Markdown text."""
@@ -372,7 +372,7 @@ class Scene(Generic[S]):
     @property
     def trials(self) -> tuple[Trial[S], ...]:
         """The trials of all its computations, the motion first."""
-        return (orbit_trial(), *self.measures) if self.has_motion else self.measures
+        return (orbit_trial(), *self.level_trials) if self.has_motion else self.level_trials
 
     def defaults(self) -> dict[str, Value]:
         """Return the default value of each parameter."""
@@ -384,9 +384,9 @@ class Scene(Generic[S]):
         plain = {one.name: one.default for one in self.specs if not isinstance(one, ChoiceSpec) or one.name in given}
         return {**plain, **preset.values}
 
-    def of(self, values: Values, visible: Collection[str] = (), dragging: bool = False) -> S:
+    def of(self, values: Values, visible: Collection[str] = (), is_preview: bool = False) -> S:
         """Return the state of these values, without computing anything."""
-        work = Work(str(values.get("accuracy", "standard")), dragging)
+        work = Work(str(values.get("accuracy", "standard")), is_preview)
         typed: dict[str, Any] = {
             spec.name: float(values[spec.name]) if isinstance(spec, NumberSpec) else str(values[spec.name])
             for spec in self.specs
@@ -403,7 +403,7 @@ class Scene(Generic[S]):
         try:
             state = self.of(within).valid_state(notes)
         except ModelError:
-            # An impossible state raises its error when it is computed.
+            # `of` accepts an impossible state; the error is raised when it is computed.
             return within, notes
         return {spec.name: cast(Value, getattr(state, spec.name)) for spec in self.specs}, notes
 
@@ -411,9 +411,9 @@ class Scene(Generic[S]):
         """Return slider ranges (low, high, step) that depend on the state of admitted values."""
         return _or_nothing(lambda: self.of(values).limits())
 
-    def idle(self, values: Values) -> Mapping[str, float]:
+    def idle_values(self, values: Values) -> Mapping[str, float]:
         """Return the parameters without effect in a valid state, with the values that their controls show."""
-        return _or_nothing(lambda: self.of(values).idle())
+        return _or_nothing(lambda: self.of(values).idle_values())
 
     def adjustments(self, before: Values, values: Values) -> Values:
         """Return the parameter changes that keep the motion continuous after other choices."""
@@ -422,11 +422,11 @@ class Scene(Generic[S]):
     def _meanings(self, values: Values) -> Mapping[str, str]:
         """Return the meanings of the numbers and choices of a state by name, except those without effect."""
         labels = {
-            spec.name: (isinstance(spec, NumberSpec) and spec.means) or spec.label
+            spec.name: (isinstance(spec, NumberSpec) and spec.meaning) or spec.label
             for spec in self.specs
             if isinstance(spec, NumberSpec | ChoiceSpec)
         }
-        idle = self.idle(values)
+        idle = self.idle_values(values)
         return {name: meaning for name, meaning in {**labels, **self.of(values).meanings()}.items() if name not in idle}
 
     def transfer(self, there: Values, before: Scene[Any], values: Values) -> dict[str, Value]:
@@ -452,15 +452,15 @@ class Scene(Generic[S]):
         }
         return {**there, **taken}
 
-    def compute(self, values: Values, visible: Collection[str], dragging: bool) -> S:
+    def compute(self, values: Values, visible: Collection[str], is_preview: bool) -> S:
         """Compute a valid state with the results for the pictures `visible`.  Raises `ModelError`."""
-        return self.draw(self.of(values, visible, dragging))
+        return self.draw(self.of(values, visible, is_preview))
 
     def draw(self, state: S) -> S:
         """Compute the columns of all visible pictures and return the state.  Raises `ModelError`."""
         self._settle(state)
         views = [view for view in self.views if view.name in state.visible]
-        shown = state.visible.union(*(view.needs for view in views))
+        shown = state.visible.union(*(view.dependencies for view in views))
         for view in self.views:
             if view.name in shown:
                 state.sources.update(view.data(state))
@@ -469,29 +469,30 @@ class Scene(Generic[S]):
             state.sources[f"data-{name}"] = self.tracks[name](state) or {}
         return state
 
-    def in_sight(self, state: S) -> Iterator[tuple[Trial[Any], State]]:
+    def visible_trials(self, state: S) -> Iterator[tuple[Trial[Any], State]]:
         """Yield the trials of the visible pictures, each with the state to compute, without accuracy and visibility."""
         plain = bare_state(state)
         return (
             (trial, plain)
             for trial in self.trials
-            if trial.applies(state) and (not trial.pictures or state.visible.intersection(trial.pictures))
+            if trial.condition(state) and (not trial.pictures or state.visible.intersection(trial.pictures))
         )
 
     def _settle(self, state: S) -> None:
-        """Set the level of "auto" to the cheapest one whose error is invisible in all visible pictures."""
-        if not state.work.auto or state.dragging:
+        """Set the level of "auto" to the cheapest level with an invisible error in all visible pictures."""
+        if not state.work.auto or state.is_preview:
             return
         found = [
-            state.work.need(Task(sufficient_level, trial, plain), preview=None) for trial, plain in self.in_sight(state)
+            state.work.need(Task(sufficient_level, trial, plain), preview=None)
+            for trial, plain in self.visible_trials(state)
         ]
         known = [name for name in found if name is not None]
         if known and len(known) == len(found):
-            state.work.settle(max(known, key=[*LEVELS].index))
+            state.work.set_measured_level(max(known, key=[*LEVELS].index))
 
 
 def _or_nothing(compute: Callable[[], Mapping[str, T]]) -> Mapping[str, T]:
-    """Return the mapping, or an empty one if it raises `ModelError`."""
+    """Return the mapping; empty if its computation raises `ModelError`."""
     try:
         return compute()
     except ModelError:

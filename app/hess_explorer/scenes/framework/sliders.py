@@ -63,10 +63,10 @@ def number(
     label: str,
     doc: str,
     group: Group = "State",
-    means: str = "",
+    meaning: str = "",
 ) -> Any:
     """Declare a number: its slider covers `softbounds` in steps; typed values and links are limited to `bounds`."""
-    return declare(NumberSpec("", symbol, label, default, softbounds, step, bounds, doc, group, means=means))
+    return declare(NumberSpec("", symbol, label, default, softbounds, step, bounds, doc, group, meaning=meaning))
 
 
 def choice(label: str, options: tuple[str, ...], default: str, *, doc: str, group: Group = "Computation") -> Any:
@@ -133,7 +133,7 @@ def exponent_time(default: float, longest: float, most: float, what: str) -> Any
         bounds=(1.0, most),
         label="Time of the exponent",
         group="Computation",
-        doc=f"How long {what} averaged.",
+        doc=f"Time over which {what} averaged.",
     )
 
 
@@ -146,7 +146,7 @@ def time_span(default: float, longest: float, *, step: float = 1.0, most: float 
         step,
         bounds=(0.01, most),
         label="Time span",
-        doc=f"How long {what} is followed.",
+        doc=f"Time for which {what} is followed.",
         group="Computation",
     )
 

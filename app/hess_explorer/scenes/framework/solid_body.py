@@ -75,7 +75,7 @@ class Solid:
         return attitude_along(self.times, omega, self.gamma)
 
     def in_space(self, held: bool = False) -> tuple[Attitude, Array] | None:
-        """Return attitude and times, every second sample if a slider is held; None if nothing is drawn."""
+        """Return attitude and times, with every second sample during a drag; None if nothing is drawn."""
         if not self.is_drawn or self.attitude.defect > _LARGEST_DEFECT:
             return None
         found = self.attitude.thin() if held else self.attitude
@@ -130,7 +130,7 @@ def hess_solid(body: HessBody, track: Track) -> Solid:
             "Not drawn: no such rigid body.", "|a| ≥ 1 violates the triangle inequalities for every I₃₃."
         )
         return Solid(track.times, track.omega, track.gamma, mass, None, about_shape, is_drawn=False)
-    # In the axes n1, n2, n3.
+    # Components in the axes n1, n2, n3.
     tensor = body.tensor(body.middle_I33)
     moments = ", ".join(map(digits, np.linalg.eigvalsh(tensor)))
     return Solid(
@@ -213,11 +213,11 @@ def body_picture(
     return BodyInSpace(
         name=name,
         title="The ball in space" if ball else title,
-        bare=True,
+        without_grid=True,
         hollow=ball,
         caption=caption,
         shape=lambda s: of(s).shape,
-        motion=lambda s: of(s).in_space(s.dragging),
+        motion=lambda s: of(s).in_space(s.is_preview),
         rods=rods,
         heavy=lambda s: of(s).mass is not None,
         # The trail of the centre of mass has the colour of the orbit, so the wheels are grey beside it.

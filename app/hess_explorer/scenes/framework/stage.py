@@ -19,7 +19,7 @@ S = TypeVar("S", bound=State)
 
 
 class Stage(Generic[S]):
-    """The pictures of any scene in one session; sends the changed columns of pictures in sight."""
+    """The pictures of a scene in one session; sends the changed columns of visible pictures."""
 
     def __init__(self, scene: Scene[S], wire: Wire) -> None:
         self.scene, self.wire = scene, wire
@@ -31,7 +31,7 @@ class Stage(Generic[S]):
 
     def show(self, state: S, hold_axes: bool) -> Report:
         """Draw a state of `Scene.compute`; `hold_axes` keeps the axes during a drag.  Raises `ModelError`."""
-        # Everything that can fail comes first, so that a failing state is not partly drawn.
+        # Compute everything that can fail before drawing, so that a failing state is not partly drawn.
         views = [view for view in self.scene.views if view.name in state.visible]
         captions = {view.name: view.full_caption(state) for view in views}
         held = {view.name: self._axes[view.name] for view in views}
@@ -51,21 +51,21 @@ class Stage(Generic[S]):
         for source, columns in drawn.items():
             self._put(source, columns)
         self._name_signs(views, drawn)
-        self.wire.say("answer", answer)
-        self.wire.say("windowed", windowed)
+        self.wire.set_text("answer", answer)
+        self.wire.set_text("windowed", windowed)
         return Report(quantities, status, notes, tuple(state.work.todo), state.work.pieces, state.work.summary())
 
     def _name_signs(self, views: Sequence[Picture[S]], drawn: Mapping[str, Columns]) -> None:
         """Send the visible entries of the legend."""
-        self.wire.say(
+        self.wire.set_text(
             "signs", self.scene.visible_signs({sign for view in views for sign in view.visible_legend(drawn)})
         )
 
     def fail(self, sentence: str, hold_axes: bool = False) -> None:
         """Clear all pictures and show the sentence in their captions; reset the axes unless `hold_axes`."""
         self._state = None
-        self.wire.say("answer", "")
-        self.wire.say("windowed", "")
+        self.wire.set_text("answer", "")
+        self.wire.set_text("windowed", "")
         for name in self.scene.tracks:
             self._put(f"data-{name}", {})
         for name, view in self._views.items():

@@ -14,8 +14,8 @@ from hess_explorer.scenes.framework.work import Work
 from hess_explorer.views.layers import Axes
 from hess_mechanics.dynamics.orbit import solve
 from hess_mechanics.dynamics.sampling import PIXELS
-from hess_mechanics.dynamics.shadowing import HALF_A_PIXEL, away_from, errors_in_pixels, has_diverged
-from hess_mechanics.dynamics.trade import Alike, LevelCost, first_sufficient, measure
+from hess_mechanics.dynamics.shadowing import HALF_A_PIXEL, distances_to_curve, errors_in_pixels, has_diverged
+from hess_mechanics.dynamics.trade import LevelCost, SharedSetting, first_sufficient, measure
 from hess_mechanics.dynamics.work_precision import longest_duration
 from hess_mechanics.dynamics.work_precision import truth as exactly
 from hess_mechanics.errors import ModelError
@@ -53,12 +53,12 @@ class Trial(Generic[S]):
         `error(state, result, truth)` returns the error in `unit`; NaN if there is nothing to compare.
     unit : str
         Unit of the error.
-    alike : str
+    shared_setting : str
         Setting of a plan that the reference shares with the measured level, because only equal points are compared.
     tolerance : float
         Largest invisible error, in `unit`.
-    applies : callable
-        `applies(state)` returns True if the pictures show it in this state.
+    condition : callable
+        `condition(state)` returns True if the pictures show it in this state.
     most : tuple of (str, float)
         Upper limits of parameters with which it takes about a second.
     """
@@ -68,9 +68,9 @@ class Trial(Generic[S]):
     run: Callable[[S, Plan], Any]
     error: Callable[[S, Any, Any], float]
     unit: str = "pixels"
-    alike: Alike = ""
+    shared_setting: SharedSetting = ""
     tolerance: float = HALF_A_PIXEL
-    applies: Callable[[S], bool] = _always
+    condition: Callable[[S], bool] = _always
     most: tuple[tuple[str, float], ...] = ()
 
     def small_state(self, state: S) -> S:
@@ -87,7 +87,7 @@ class Refusal:
 
 
 def bare_state(state: S) -> S:
-    """Return the state without its accuracy and pictures in sight, as a cache key."""
+    """Return the state without its accuracy and visible pictures, as a cache key."""
     typed: Any = state
     accuracy = {"accuracy": STANDARD.name} if hasattr(state, "accuracy") else {}
     found: S = replace(typed, **accuracy, work=Work(), visible=frozenset(), sources={})
@@ -97,9 +97,9 @@ def bare_state(state: S) -> S:
 def level_costs(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refusal:
     """Measure the time and error of each level for a state from `bare_state`.  Raises `OverBudget`."""
     try:
-        return tuple(measure(*_of(trial, state), alike=trial.alike))
+        return tuple(measure(*_of(trial, state), shared_setting=trial.shared_setting))
     except OverBudget:
-        # A later attempt may succeed.
+        # Do not cache this failure: a later attempt may be faster.
         raise
     except ModelError as error:
         return Refusal(str(error))
@@ -108,7 +108,7 @@ def level_costs(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refusal:
 def sufficient_level(trial: Trial[S], state: S) -> str:
     """Return the cheapest level with an invisible error; `standard` if none can be measured.  Raises `OverBudget`."""
     try:
-        return first_sufficient(measure(*_of(trial, state), alike=trial.alike), trial.tolerance)
+        return first_sufficient(measure(*_of(trial, state), shared_setting=trial.shared_setting), trial.tolerance)
     except OverBudget:
         raise
     except ModelError:
@@ -172,7 +172,7 @@ def boundary_error(curve: Array, exact: Array, axes: Axes) -> float:
     (x, y), (low, high) = exact.T, np.array([axes.x, axes.y]).T
     there = exact[(x >= low[0]) & (x <= high[0]) & (y >= low[1]) & (y <= high[1])]
     pixels = PIXELS / (high - low)
-    return float(away_from(there * pixels, curve * pixels).max()) if len(curve) and len(there) else math.nan
+    return float(distances_to_curve(there * pixels, curve * pixels).max()) if len(curve) and len(there) else math.nan
 
 
 def colour_error(values: Array, exact: Array) -> float:

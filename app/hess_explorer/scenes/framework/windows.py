@@ -6,10 +6,10 @@ from hess_explorer.protocol.specs import Value, Values, points_of, points_text
 from hess_mechanics.dynamics.cells import Window
 from hess_mechanics.dynamics.sampling import PIXELS
 
-__all__ = ["Window", "box_window", "pixels_in", "tidy_window", "window_of"]
+__all__ = ["Window", "box_window", "normalized_window", "pixels_in", "window_of"]
 
 
-def tidy_window(text: Value) -> str:
+def normalized_window(text: Value) -> str:
     """Return the text of a window with sorted corners; an empty string for an invalid window."""
     corners = points_of(text)
     if len(corners) != 2 or corners[0][0] == corners[1][0] or corners[0][1] == corners[1][1]:

@@ -12,7 +12,7 @@ from typing import Any, TypeVar, cast, overload
 from hess_explorer.compute.cache import CACHE, Task
 from hess_mechanics.dynamics.sampling import HALF_A_PIXEL
 from hess_mechanics.numerics.accuracy import STANDARD, Kind, Level, Plan, cheapest, level, plan
-from hess_mechanics.numerics.jit import seconds_compiling
+from hess_mechanics.numerics.jit import compile_seconds
 from hess_mechanics.numerics.results import Orbit
 from hess_mechanics.suslov.free import FreeMotion
 
@@ -33,28 +33,28 @@ class Work:
     level_name : str
         Name of the chosen level, also while a slider is held.
     auto : bool
-        True if the level is determined by measurement, see `settle`.
+        True if the level is determined by measurement, see `set_measured_level`.
     """
 
-    def __init__(self, accuracy: str = "standard", dragging: bool = False) -> None:
-        self._start, self._compiled = time.perf_counter(), seconds_compiling()
+    def __init__(self, accuracy: str = "standard", is_preview: bool = False) -> None:
+        self._start, self._compiled = time.perf_counter(), compile_seconds()
         self._misses = 0
-        self.dragging = dragging
+        self.is_preview = is_preview
         self.auto, self._settled = accuracy == AUTO, False
         self.level_name = STANDARD.name if self.auto else accuracy
         self._todo: list[Task[Any]] = []
         self._refinements: list[Task[Any]] = []
         self.pieces = 0
         chosen = level(self.level_name)
-        # While a slider is dragged, use the cheapest level that is right to half a pixel.
-        self.level: Level = min(chosen, cheapest(HALF_A_PIXEL), key=lambda rung: rung.order) if dragging else chosen
+        # While a slider is dragged, use the cheapest level with an error below half a pixel.
+        self.level: Level = min(chosen, cheapest(HALF_A_PIXEL), key=lambda rung: rung.order) if is_preview else chosen
 
     @property
     def todo(self) -> list[Task[Any]]:
         """The computations of missing results in order; refinements of pictures come last."""
         return self._todo or self._refinements
 
-    def settle(self, name: str) -> None:
+    def set_measured_level(self, name: str) -> None:
         """Set the measured level of "auto"; until then it is `standard`."""
         self._settled, self.level_name, self.level = True, name, level(name)
 
@@ -73,10 +73,10 @@ class Work:
         if steady:
             return plan(
                 kind,
-                STANDARD.name if self.dragging and level(self.level_name).order > STANDARD.order else self.level_name,
+                STANDARD.name if self.is_preview and level(self.level_name).order > STANDARD.order else self.level_name,
             )
         found = plan(kind, self.level.name)
-        return replace(found, share=1.0, cells=1.0) if self.dragging else found
+        return replace(found, share=1.0, cells=1.0) if self.is_preview else found
 
     def pending_caption(self, what: str = "") -> str:
         """Return the caption of a result that is not known yet.
@@ -86,7 +86,7 @@ class Work:
         what : str
             Name of the result and "is" or "are".
         """
-        soon = "computed when the slider is released." if self.dragging else "being computed."
+        soon = "computed when the slider is released." if self.is_preview else "being computed."
         return f"{what} {soon}" if what else soon.capitalize()
 
     @overload
@@ -110,14 +110,14 @@ class Work:
             value, hit = CACHE.get(task.function, *task.arguments)
             self._misses += not hit
             return cast(T, value)
-        known = None if self.dragging and preview else CACHE.peek(task.function, *task.arguments)
-        if not self.dragging:
+        known = None if self.is_preview and preview else CACHE.peek(task.function, *task.arguments)
+        if not self.is_preview:
             self.pieces += 1
             if known is None:
                 self._todo.append(task)
         return self.need(preview) if known is None and isinstance(preview, Task) else cast("T | None", known)
 
-    def newest(self, chains: Sequence[Sequence[Task[T]]], last: bool = False) -> list[T | None]:
+    def newest_results(self, chains: Sequence[Sequence[Task[T]]], last: bool = False) -> list[T | None]:
         """Return the last cached result of each chain of tasks, or None, and add the tasks after it to `todo`.
 
         Each task of a chain continues the one before.  The earlier ones need not be cached any more.  With
@@ -135,7 +135,7 @@ class Work:
 
     def _spent(self) -> tuple[float, float]:
         """Return the computing time and the compile time so far, in seconds."""
-        compiling = seconds_compiling() - self._compiled
+        compiling = compile_seconds() - self._compiled
         return time.perf_counter() - self._start - compiling, compiling
 
     def summary(self) -> str:

@@ -27,7 +27,7 @@ def caption(motion: Conformal) -> Caption:
     """Return the caption of a motion in both times."""
     turned = {0: "never", 1: "once"}.get(motion.turns, f"{motion.turns} times")
     return Caption(
-        "Hamiltonian in the time τ.",
+        "The motion is Hamiltonian in τ.",
         f"ẋ = γ₃{{x, E}} within {digits(motion.residual, 1)}; τ reverses {turned} on the equator.",
     )
 
@@ -55,10 +55,10 @@ def picture(motion_of: Transform[S], reason: Callable[[S], str], span: Callable[
 
     layers: Layers[S] = (
         levels("levels", lambda s: [] if motion_of(s) is None else [0.0]),
-        curves("first", within=_bracket(motion_of, 0), color=theme.MAP, width=1.5, label="{ω₁, γ₃} = γ₂/(I₁₁γ₃)"),
+        curves("first", data_in_axes=_bracket(motion_of, 0), color=theme.MAP, width=1.5, label="{ω₁, γ₃} = γ₂/(I₁₁γ₃)"),
         curves(
             "second",
-            within=_bracket(motion_of, 1),
+            data_in_axes=_bracket(motion_of, 1),
             color=theme.MUTED,
             width=1.5,
             dash="dashed",

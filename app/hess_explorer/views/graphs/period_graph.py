@@ -22,7 +22,7 @@ def has_periods(periods: Array) -> bool:
 
 
 def period_axis(periods: Array, here: float = 0.0) -> Range:
-    """Return an axis that contains most finite periods and the current one, if it is finite."""
+    """Return an axis that contains most finite periods and the current period, if that is finite."""
     finite = periods[np.isfinite(periods[:, 1]), 1]
     if not finite.size:
         return 0.0, 20.0
@@ -40,4 +40,4 @@ def layers(periods: Callable[[S], Array], here: Callable[[S], tuple[float, float
         point = here(state) if has_periods(periods(state)) else None
         return [] if point is None else [(point[0], min(point[1], axes.y[1]))]
 
-    return curves("T", within=curve, color=theme.ORBIT), ring("chosen", within=chosen, size=18)
+    return curves("T", data_in_axes=curve, color=theme.ORBIT), ring("chosen", data_in_axes=chosen, size=18)

@@ -59,7 +59,7 @@ def _tongue(boundary: Array, axes: Axes) -> Regions:
         return []
     h, f = boundary[0]
     far, top = max(axes.x[1], h) + 1.0, 2.0 * max(axes.y[1], f)
-    # A single part, as two parts that meet at f = 0 would show a seam.
+    # Use one part, because two parts that meet at f = 0 would show a seam.
     mirrored = boundary[::-1] * (1.0, -1.0)
     return [[np.array([*boundary, *mirrored, [h, -top], [far, -top], [far, top], [h, top]])]]
 
@@ -95,9 +95,9 @@ def layers(
     return (
         image("rotation", rotation, palette=theme.TURN_MAP, low=-0.5, high=0.5, cyclic=True, legend=(TURNS,)),
         region("locked", lambda s: _tongue(boundary(s), axes(s)), color=theme.LOCKED, label="locked", tag="locked"),
-        curves("boundary", lock, moving=False, color=theme.INK),
+        curves("boundary", lock, is_overlay=False, color=theme.INK),
         region("forbidden", lambda s: impossible(curve(s), axes(s)), label="impossible", tag="impossible"),
-        curves("curve", lambda s: _with_mirror_image(curve(s)), moving=False, color=theme.INK),
+        curves("curve", lambda s: _with_mirror_image(curve(s)), is_overlay=False, color=theme.INK),
         points(
             "special",
             lambda s: ((1.0, -1.0), (0.0, 0.0)),
@@ -128,7 +128,7 @@ def caption(h: float, f: float, theta: CircleMap | None) -> Caption:
     zone = (
         "On the separatrix."
         if theta is None
-        else {"hyperbolic": "Locked: two limit cycles.", "parabolic": "On the lock boundary."}.get(
+        else {"hyperbolic": "Locked: two limit cycles.", "parabolic": "On the boundary of the Arnold tongue."}.get(
             theta.kind, "Not locked: no limit cycle."
         )
     )

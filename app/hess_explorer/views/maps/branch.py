@@ -17,8 +17,8 @@ S = TypeVar("S")
 _SHORT = {"Neimark–Sacker": "N–S"}
 _LOOKS = (
     ("attracts", theme.STABLE, "solid", "branch of a stable periodic orbit", "stable"),
-    ("neither", theme.SHEET, "solid", "branch of an elliptic or parabolic one", "elliptic"),
-    ("repels", theme.UNSTABLE, "dashed", "branch of an unstable one", "unstable"),
+    ("neither", theme.SHEET, "solid", "branch of an elliptic or parabolic orbit", "elliptic"),
+    ("repels", theme.UNSTABLE, "dashed", "branch of an unstable orbit", "unstable"),
 )
 """Colour, dash, label and tag of each sign of `sign_of`."""
 
@@ -34,14 +34,14 @@ def _strands(branch: Branch, side: int, sign: str) -> list[Array]:
         run: list[tuple[float, float]] = []
         for i, (value, orbit) in enumerate(zip(branch.values, branch.points, strict=True)):
             between = sorted(
-                (one for one in branch.bifurcations if one.after == i - 1),
+                (one for one in branch.bifurcations if one.index == i - 1),
                 key=lambda one: float(np.abs(one.points - branch.points[max(0, i - 1)]).max()),
             )
             for one in between:
                 met = (one.value, float(one.points[j, side]))
                 runs.append([*run, met] if run else [])
                 run = [met] if signs[i] == sign else []
-            # Without a bifurcation between them, a point of neither sign belongs to the previous part.
+            # A point of neither sign belongs to the previous part, unless a bifurcation lies between them.
             if signs[i] == sign or (run and signs[i] == "neither"):
                 run.append((float(value), float(orbit[j, side])))
             else:
@@ -88,7 +88,7 @@ def layers(of: Callable[[S], HasBranches]) -> Layers[S]:
             y = one.points[:, shown.side]
             there = visible_points(np.column_stack([y, np.full(len(y), one.value)]), shown.turn, up)
             inside = [(float(x), float(height)) for height, x in there if axes.x[0] <= x <= axes.x[1]]
-            # Only the highest point has a label, because labels at all points would overlap.
+            # Label only the highest point, because labels at all points would overlap.
             found += [
                 (x, y, _SHORT.get(one.kind, one.kind) if y == max(inside, key=lambda at: at[1])[1] else "")
                 for x, y in inside
@@ -101,19 +101,19 @@ def layers(of: Callable[[S], HasBranches]) -> Layers[S]:
 
     return (
         *(
-            curves(f"branch-{sign}", within=parts(sign), color=color, width=3.0, dash=dash, label=label, tag=tag)
+            curves(f"branch-{sign}", data_in_axes=parts(sign), color=color, width=3.0, dash=dash, label=label, tag=tag)
             for sign, color, dash, label, tag in _LOOKS
         ),
         points(
             "bifurcations",
-            within=marks,
+            data_in_axes=marks,
             size=10,
             color=theme.LOCKED,
             edge=theme.INK,
             edge_width=1.5,
             label="bifurcation",
         ),
-        names("bifurcation-names", within=marked, size=13, above=7),
+        names("bifurcation-names", data_in_axes=marked, size=13, above=7),
     )
 
 

@@ -24,7 +24,7 @@ Click = Callable[[S, float, float], Values]
 
 _COBWEB = 60
 """Number of returns in the cobweb."""
-EVENLY = 0.25
+UNIFORM_HEIGHT = 0.25
 """Height of a uniform density as a share of the frame; 0 is at the bottom."""
 _DENSITY = np.linspace(*ANGLE, 241)
 _BEYOND = 100.0
@@ -52,7 +52,7 @@ def _density(circle_map: CircleMap) -> list[Array]:
     if circle_map.kind != "elliptic":
         return []
     relative = np.minimum(_BEYOND, 2.0 * math.pi * invariant_measure(circle_map).density(_DENSITY))
-    return [np.column_stack([_DENSITY, -math.pi + EVENLY * 2.0 * math.pi * relative])]
+    return [np.column_stack([_DENSITY, -math.pi + UNIFORM_HEIGHT * 2.0 * math.pi * relative])]
 
 
 def picture(
@@ -125,7 +125,7 @@ def picture(
 def cycles(theta: CircleMap) -> str:
     """Return the limit cycles of a torus in words; a parabolic map without a fixed point is the identity."""
     if theta.kind == "parabolic":
-        return "the two cycles have merged" if theta.fixed_points else "every orbit closes"
+        return "the two cycles have merged" if theta.fixed_points else "every orbit is periodic"
     return "two limit cycles" if theta.kind == "hyperbolic" else "no cycle"
 
 

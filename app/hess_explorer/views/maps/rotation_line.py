@@ -34,13 +34,13 @@ class Tori:
         Values of the parameter.
     values : TorusValues
         ρ and trace of each torus.
-    here : float
+    current : float
         Parameter of the current torus.
     """
 
     x: Array
     values: TorusValues
-    here: float
+    current: float
 
     def curve(self, y: Array, jump: float = math.inf) -> list[Array]:
         """Return the parts of the graph of y (n,) over the existing tori, cut at jumps."""
@@ -56,9 +56,9 @@ class Tori:
         there = np.isfinite(y)
         if not there.any():
             return []
-        height = float(np.interp(self.here, self.x[there], y[there]))
-        inside = axes.x[0] <= self.here <= axes.x[1] and axes.y[0] <= height <= axes.y[1]
-        return [(self.here, height)] if inside else []
+        height = float(np.interp(self.current, self.x[there], y[there]))
+        inside = axes.x[0] <= self.current <= axes.x[1] and axes.y[0] <= height <= axes.y[1]
+        return [(self.current, height)] if inside else []
 
 
 def rho_layers(
@@ -74,7 +74,7 @@ def rho_layers(
         levels("levels", rational),
         curves("other", other, color=theme.MAP, dash="dashed", label="ρ of Θ(φ + ε sin 3φ)", tag="Θ(φ + ε sin 3φ)"),
         curves("rho", lambda s: tori(s).curve(tori(s).values.rho, _JUMP), color=theme.ORBIT, label="ρ, trace of Θ"),
-        ring("chosen", within=lambda s, axes: tori(s).ring(tori(s).values.rho, axes), size=18),
+        ring("chosen", data_in_axes=lambda s, axes: tori(s).ring(tori(s).values.rho, axes), size=18),
     )
 
 
@@ -83,5 +83,5 @@ def trace_layers(tori: Callable[[S], Tori]) -> Layers[S]:
     return (
         levels("levels", lambda s: [2.0]),
         curves("t", lambda s: tori(s).curve(tori(s).trace), color=theme.ORBIT),
-        ring("chosen", within=lambda s, axes: tori(s).ring(tori(s).trace, axes), size=18),
+        ring("chosen", data_in_axes=lambda s, axes: tori(s).ring(tori(s).trace, axes), size=18),
     )

@@ -55,7 +55,7 @@ def picture(
 
 
 def middle_layers(
-    elsewhere: Callable[[S], Array],
+    other_sheets: Callable[[S], Array],
     curve: Callable[[S], tuple[Array, Array]],
     across: Callable[[S], Positions],
 ) -> Layers[S]:
@@ -63,15 +63,17 @@ def middle_layers(
 
     Parameters
     ----------
-    elsewhere : callable
-        `elsewhere(state)` returns points (n, 2) on another sheet.
+    other_sheets : callable
+        `other_sheets(state)` returns points (n, 2) on another sheet.
     curve : callable
         `curve(state)` returns l and L/G of the Hess relation.
     across : callable
         `across(state)` returns the ends of the line of the rotation number in the window.
     """
     return (
-        dots("elsewhere", lambda s: elsewhere(s).T, color=theme.SHEET, size=12, label="on another sheet (different G)"),
+        dots(
+            "elsewhere", lambda s: other_sheets(s).T, color=theme.SHEET, size=12, label="on another sheet (different G)"
+        ),
         line("curve", curve, color=theme.STABLE, label="Hess manifold, r·M = 0", tag="r·M = 0"),
         dots("path", track="orbit", columns=("l", "x"), size=3, color=theme.MAP, alpha=0.4),
         line(

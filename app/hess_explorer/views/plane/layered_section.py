@@ -111,7 +111,7 @@ def layers(
     second: Callable[[S], Array],
     own: Callable[[S], Sequence[Array]],
     chosen: Callable[[S], Positions],
-    impossible: Callable[[S], Array],
+    forbidden_cells: Callable[[S], Array],
     window: Callable[[S], Window],
     labels: tuple[str, str],
     between: Layers[S] = (),
@@ -128,8 +128,8 @@ def layers(
         `own(state)` returns the points (n, 2) of each chosen orbit.
     chosen : callable
         `chosen(state)` returns their starts.
-    impossible : callable
-        `impossible(state)` returns cells (m, n) over the window, 1 in the forbidden region.
+    forbidden_cells : callable
+        `forbidden_cells(state)` returns cells (m, n) over the window, 1 in the forbidden region.
     window : callable
         `window(state)` returns the visible window.
     labels : tuple of str
@@ -139,7 +139,7 @@ def layers(
     """
 
     def of_colour(i: int, color: str) -> Layer[S]:
-        label = "" if i else "chosen orbit, from its ring"
+        label = "" if i else "chosen orbit; its ring marks the start"
         return _points(f"own{i or ''}", lambda s: concatenate(own(s)[i :: len(theme.CHOSEN)]), window, 10, color, label)
 
     def ring_of(i: int, color: str) -> Layer[S]:
@@ -148,7 +148,7 @@ def layers(
     return (
         image(
             "impossible",
-            in_window(impossible, window),
+            in_window(forbidden_cells, window),
             palette=(_CLEAR, theme.FORBIDDEN),
             low=0.0,
             high=1.0,

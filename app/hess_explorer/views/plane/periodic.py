@@ -69,7 +69,7 @@ def layers(
     return (
         curves(
             "stable-manifold",
-            within=parts(True),
+            data_in_axes=parts(True),
             color=theme.STABLE,
             width=3.0,
             label="stable manifold",
@@ -77,14 +77,16 @@ def layers(
         ),
         curves(
             "unstable-manifold",
-            within=parts(False),
+            data_in_axes=parts(False),
             color=theme.UNSTABLE,
             width=3.0,
             dash="dashed",
             label="unstable manifold",
             tag="unstable manifold",
         ),
-        points("homoclinic", within=crossed, size=7, color=theme.LOCKED, edge=theme.INK, label="homoclinic point"),
+        points(
+            "homoclinic", data_in_axes=crossed, size=7, color=theme.LOCKED, edge=theme.INK, label="homoclinic point"
+        ),
         *orbit_points(orbits),
     )
 
@@ -107,7 +109,7 @@ def orbit_points(orbits: Callable[[S], Sequence[PeriodicOrbit]]) -> Layers[S]:
             color=theme.STABLE,
             edge=theme.INK,
             edge_width=1.5,
-            label="periodic orbit that attracts",
+            label="attracting periodic orbit",
             tag="attracts",
         ),
         points(

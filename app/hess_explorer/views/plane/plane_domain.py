@@ -67,7 +67,7 @@ def background_layers(
         return [[frame, outer], *([part] for part in forbidden(state))]
 
     return (
-        region("forbidden", within=grey, label="impossible", tag="impossible"),
+        region("forbidden", data_in_axes=grey, label="impossible", tag="impossible"),
         curves("levels", levels, color=theme.MUTED, width=1, label="equipotentials"),
     )
 
@@ -99,10 +99,10 @@ def momentum_picture(
         _, values = momentum(state)
         if is_integral(state):
             return Caption(
-                "An integral, as I₁₁ = I₂₂.",
+                "q₁p₂ − q₂p₁ is an integral for I₁₁ = I₂₂.",
                 f"{digits(float(values[0]))}, constant within {digits(float(np.ptp(values)), 1)}.",
             )
-        return Caption("No integral, as I₁₁ ≠ I₂₂.", f"Here it is {variation_text(values)}.")
+        return Caption("q₁p₂ − q₂p₁ is no integral for I₁₁ ≠ I₂₂.", f"Along this orbit {variation_text(values)}.")
 
     return Plot(
         name="momentum",

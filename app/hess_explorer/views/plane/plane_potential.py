@@ -30,11 +30,11 @@ _LEVELS = (0.1, 0.25, 0.5, 0.75, 0.95)
 
 def caption(body: PotentialBody, motion: PlaneMotion) -> Caption:
     """Return the caption of a motion: whether it is periodic, and whether a further integral exists."""
-    if motion.fixed:
+    if motion.is_fixed_point:
         return Caption("A fixed point: nothing changes.")
     if motion.period is not None:
         return Caption(
-            "Periodic: it crosses the equator twice.",
+            "Periodic, with two equator crossings.",
             f"T = {digits(motion.period)}, returns to its start within {digits(motion.closure_error, 1)}.",
         )
     integral = (
@@ -42,8 +42,8 @@ def caption(body: PotentialBody, motion: PlaneMotion) -> Caption:
         if body.separates
         else f"F₂ changes by {digits(100.0 * motion.integral, 2)} %."
     )
-    if motion.one_sided:
-        return Caption("Too slow to reach the equator.", f"It stays on one side. {integral}")
+    if motion.is_one_sided:
+        return Caption("The motion does not reach the equator.", f"γ₃ keeps its sign. {integral}")
     return Caption(
         "Fewer than two equator crossings.", f"Up to t = {digits(float(motion.orbit.times[-1]))}. {integral}"
     )

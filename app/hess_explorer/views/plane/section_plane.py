@@ -1,4 +1,4 @@
-"""A Poincaré section: points of many orbits, the chosen one on top."""
+"""A Poincaré section: points of many orbits, with the chosen orbit on top."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def layers(
     """
     found: list[Layer[S]] = []
     if forbidden is not None:
-        found.append(region("forbidden", within=forbidden, label="impossible", tag="impossible"))
+        found.append(region("forbidden", data_in_axes=forbidden, label="impossible", tag="impossible"))
     if others is not None:
         found.append(_points("others", others, theme.MUTED, 6, "other orbits"))
     if ended is not None:

@@ -46,11 +46,11 @@ def reason_for_no_density(theta: CircleMap | None, turning_points: TurningPoints
 
 
 def caption(density: Array) -> Caption:
-    """Return the caption of a density relative to the uniform one."""
+    """Return the caption of a density relative to the uniform density."""
     low, high = digits(float(density.min()), 3), digits(float(density.max()), 3)
     if low == high:
         return Caption("The flow preserves the uniform density.", "Uniform to three digits.")
-    return Caption("The flow preserves this density.", f"{low} to {high} times the uniform one; greener is more.")
+    return Caption("The flow preserves this density.", f"{low} to {high} times the uniform density; greener is denser.")
 
 
 def picture(density: Callable[[S], tuple[Array | None, str]]) -> Plot[S]:

@@ -36,7 +36,7 @@ def layers(
             edge=theme.MUTED,
             label="impossible",
             tag="impossible",
-            moving=True,
+            is_overlay=True,
         ),
         band(proved),
         line("orbit", track="orbit", columns=_PLANE, color=theme.ORBIT, width=1.3, label="orbit", tag="orbit"),
@@ -103,4 +103,4 @@ def heights_caption(turning_points: TurningPoints | None) -> Caption:
     n1, n2 = turning_points.roots[1:]
     if digits(n1) == digits(n2):
         return Caption("The vertical γ has constant height.", f"n₃ = {digits(n1)}.")
-    return Caption("The vertical γ between two heights.", f"n₃ = {digits(n1)} and {digits(n2)}.")
+    return Caption("The vertical γ moves between two heights.", f"n₃ = {digits(n1)} and {digits(n2)}.")

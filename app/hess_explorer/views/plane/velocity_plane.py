@@ -100,7 +100,7 @@ def chosen_orbit(states: Callable[[S], Array], colour: Callable[[S], int]) -> La
 
 def band(data: Callable[[S], Regions]) -> Layer[S]:
     """Return the layer of polygons (n, 2) that enclose the true orbit where they are wider than a pixel."""
-    return region("band", data, color=theme.SHEET, label="proved enclosure of the orbit", moving=True)
+    return region("band", data, color=theme.SHEET, label="proved enclosure of the orbit", is_overlay=True)
 
 
 def orbit_alone(
@@ -152,13 +152,13 @@ def ring_outside(inner: Array, outer: Array, half_width: float) -> Regions:
 
 
 def label_points(inner: Array, outer: Array, half_width: float) -> Array:
-    """Return points (2, 2) for two labels: inside a point (2,) of the inner curve, outside one of the outer curve."""
+    """Return points (2, 2) for two labels: just inside the inner curve and just outside the outer curve."""
     gap = 0.09 * half_width
     lengths = np.linalg.norm([inner, outer], axis=1)
     return np.array([inner * (1.0 - min(1.0, gap / lengths[0])), outer * (1.0 + gap / lengths[1])])
 
 
-def halves(
+def half_lines(
     stable: Callable[[S, Axes], Array], unstable: Callable[[S, Axes], Array], labels: tuple[str, str]
 ) -> Layers[S]:
     """Return the layers of the stable and the unstable half of the line of equilibria, segments (2, 2).
@@ -169,7 +169,7 @@ def halves(
     return (
         line(
             "stable",
-            within=lambda s, axes: stable(s, axes).T,
+            data_in_axes=lambda s, axes: stable(s, axes).T,
             color=theme.STABLE,
             width=3,
             label=labels[0],
@@ -177,7 +177,7 @@ def halves(
         ),
         line(
             "unstable",
-            within=lambda s, axes: unstable(s, axes).T,
+            data_in_axes=lambda s, axes: unstable(s, axes).T,
             color=theme.UNSTABLE,
             width=3,
             dash="dashed",

@@ -94,22 +94,22 @@ class Shape:
 class Wheels:
     """Vagner's wheels for the constraint (ω, e) = 0: they roll on a fixed shell without slipping sideways.
 
-    The axles are parallel; `at` and −`at` touch the shell; the wheels lie in the plane of `at` and `e`.  The velocity ω
-    × at has no component along the axle at × e if and only if (ω, e) = 0.
+    The axles are parallel; the points c = `contact` and −c touch the shell; the wheels lie in the plane of c and `e`.
+    The velocity ω × c has no component along the axle c × e if and only if (ω, e) = 0.
 
     Attributes
     ----------
-    at : sequence of float
+    contact : sequence of float
         Unit vector (3,) of the body orthogonal to e.
     e : sequence of float
         Unit vector (3,) of the constraint.
-    look : str
+    style : str
         Style of the trace, as in `Rod`.
     """
 
-    at: Sequence[float] | Array
+    contact: Sequence[float] | Array
     e: Sequence[float] | Array
-    look: str = "orbit"
+    style: str = "orbit"
 
 
 @dataclass(frozen=True)
@@ -118,12 +118,12 @@ class Rod:
 
     Attributes
     ----------
-    look : str
+    style : str
         "mass" (ends in a ball), "axis", "orbit", "second", "stable", "unstable" or "muted".
     """
 
     along: Sequence[float] | Array
-    look: str
+    style: str
     label: str = ""
 
 
@@ -131,11 +131,11 @@ class Rod:
 class Curve:
     """A curve in space, in components (n, 3) along (γ, e, γ × e).
 
-    Its `look` is a style of `Rod` or "limit"; the width is in pixels.
+    Its `style` is a style of `Rod` or "limit"; the width is in pixels.
     """
 
     points: Array
-    look: str
+    style: str
     weight: float = 0.0
 
 
@@ -181,7 +181,7 @@ class BodyInSpace(Picture[S]):
         `curves(state)` returns curves in space.
     circles, marks : sequence
         Circles and marks fixed in the space of the picture.
-    bare : bool
+    without_grid : bool
         True to omit the lines of the sphere.
     """
 
@@ -197,19 +197,19 @@ class BodyInSpace(Picture[S]):
     curves: Callable[[S], Sequence[Curve]] = lambda state: ()
     circles: Sequence[Circle] = ()
     marks: Sequence[Mark] = ()
-    bare: bool = False
+    without_grid: bool = False
 
     kind: ClassVar[str] = "sphere"
 
     @property
-    def needs(self) -> frozenset[str]:
+    def dependencies(self) -> frozenset[str]:
         """Names of the pictures whose data the picture requires."""
-        return super().needs | ({self.attitude} if self.attitude else set())
+        return super().dependencies | ({self.attitude} if self.attitude else set())
 
     @property
     def legend(self) -> tuple[Sign, ...]:
         """Entries that the picture adds to the legend of its scene."""
-        colour = "" if self.wheels is None else theme.SHADES[self.wheels.look][0]
+        colour = "" if self.wheels is None else theme.SHADES[self.wheels.style][0]
         wheels = (_WHEEL, Sign(_TRACE, "line", f"border-top: 3px dotted {colour}")) if colour else ()
         return (*self.signs, *wheels, *((_WEIGHTS,) if self.motion else ()))
 
@@ -221,7 +221,7 @@ class BodyInSpace(Picture[S]):
             "tracks": {},
             "attitude": self.attitude or self.name,
             "title": title,
-            "bare": self.bare,
+            "bare": self.without_grid,
         }
 
     def data(self, state: S) -> Sources:
@@ -248,8 +248,8 @@ class BodyInSpace(Picture[S]):
             }
         if self.wheels is not None and motion is not None:
             wheels = self.wheels
-            columns["wheels"] = [*map(float, wheels.at), *map(float, wheels.e), wheels.look]
-            columns["arc"] = column(contact_arc(attitude.axes, wheels.at, wheels.e))
+            columns["wheels"] = [*map(float, wheels.contact), *map(float, wheels.e), wheels.style]
+            columns["arc"] = column(contact_arc(attitude.axes, wheels.contact, wheels.e))
         trail = self.trail(state)
         if trail is not None:
             columns["trail"] = [*map(float, trail), "orbit"]
@@ -257,9 +257,9 @@ class BodyInSpace(Picture[S]):
         return {
             self.name: {
                 **columns,
-                "rods": [[*map(float, one.along), one.look, one.label] for one in self.rods(state)],
+                "rods": [[*map(float, one.along), one.style, one.label] for one in self.rods(state)],
                 "curves": [
-                    [one.look, one.weight, *column(to_picture_axes(one.points).T)] for one in self.curves(state)
+                    [one.style, one.weight, *column(to_picture_axes(one.points).T)] for one in self.curves(state)
                 ],
                 **shape_columns(Direction((0.0, 0.0, -1.0), label), self.circles, self.marks),
             }

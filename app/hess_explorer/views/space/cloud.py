@@ -28,7 +28,7 @@ _ANGLES = np.linspace(0.0, 2.0 * math.pi, 97)
 
 def _frames(columns: Sequence[Array]) -> np.ndarray:
     """Return columns (n, m) as one block [frame][column][point] in single precision."""
-    # Millions of numbers: double precision would take twice the memory.
+    # Single precision halves the memory of millions of numbers.
     return np.stack([one.T for one in columns], axis=1).astype(np.float32).ravel()
 
 
@@ -206,18 +206,20 @@ def density_layers(density: Callable[[S], Density]) -> Layers[S]:
 
     now: Layer[S] = points("now", color=theme.POINT, edge=theme.INK, size=7, label="at the current time")
     return (
-        line("limit", within=limit, color=theme.MUTED, width=3, dash="dotted", label="c/|s|", tag="c/|s|"),
+        line("limit", data_in_axes=limit, color=theme.MUTED, width=3, dash="dotted", label="c/|s|", tag="c/|s|"),
         line(
             "first",
-            within=of(lambda one: one.first),
+            data_in_axes=of(lambda one: one.first),
             color=theme.MUTED,
             width=1,
             dash="dashed",
             label="start",
             tag="start",
         ),
-        line("last", within=of(lambda one: one.last), color=theme.MUTED, width=1, label="end; energy h", tag="end"),
-        line("mean", within=of(lambda one: one.mean), color=theme.ORBIT, label="cloud; its mean", tag="mean"),
+        line(
+            "last", data_in_axes=of(lambda one: one.last), color=theme.MUTED, width=1, label="end; energy h", tag="end"
+        ),
+        line("mean", data_in_axes=of(lambda one: one.mean), color=theme.ORBIT, label="cloud and its mean", tag="mean"),
         now,
     )
 

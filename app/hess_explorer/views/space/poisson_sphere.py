@@ -22,7 +22,7 @@ class Circle:
 
     axis: Sequence[float] | Array
     height: float
-    look: str
+    style: str
 
 
 EQUATOR = Circle((0.0, 0.0, 1.0), 0.0, "limit")
@@ -32,8 +32,8 @@ EQUATOR = Circle((0.0, 0.0, 1.0), 0.0, "limit")
 class Mark:
     """A labelled point on the sphere, in a style "stable", "unstable" or "muted"."""
 
-    at: Sequence[float] | Array
-    look: str
+    position: Sequence[float] | Array
+    style: str
     label: str = ""
 
 
@@ -102,9 +102,9 @@ class Sphere(Picture[S]):
     kind: ClassVar[str] = "sphere"
 
     @property
-    def needs(self) -> frozenset[str]:
+    def dependencies(self) -> frozenset[str]:
         """Names of the pictures whose data the picture requires."""
-        return super().needs | ({self.clouds} if self.clouds else set())
+        return super().dependencies | ({self.clouds} if self.clouds else set())
 
     @property
     def tracks(self) -> frozenset[str]:
@@ -151,6 +151,6 @@ def shape_columns(axis: Direction | None, circles: Sequence[Circle], marks: Sequ
     return {
         "axis": [] if axis is None else [float(x) for x in axis.along],
         "label": "" if axis is None else axis.label,
-        "circles": [[*map(float, one.axis), float(one.height), one.look] for one in circles],
-        "marks": [[*map(float, one.at), one.look, one.label] for one in marks],
+        "circles": [[*map(float, one.axis), float(one.height), one.style] for one in circles],
+        "marks": [[*map(float, one.position), one.style, one.label] for one in marks],
     }

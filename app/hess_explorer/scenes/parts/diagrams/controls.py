@@ -103,7 +103,7 @@ class DiagramControls(State, ABC):
         5.0,
         bounds=(2.0, 500.0),
         label="Crossings shown",
-        doc="Crossings drawn at each value, after those left out.",
+        doc="Crossings drawn at each value, after the omitted ones.",
         group="Computation",
     )
     window: str = points("The window of the diagram", 2, *BOUNDS)

@@ -94,10 +94,10 @@ class DiagramDensity(Part[OrbitDiagram]):
     @cached_property
     def _visits(self) -> list[tuple[str, Visits | None]]:
         """Way and newest visits of each group of columns; empty while a slider is held."""
-        if self.work.dragging:
+        if self.work.is_preview:
             return []
         chains = [(way, chain) for way in self.forward if way in self._ends for chain in self._chains(way)]
-        found = self.work.newest([chain for _, chain in chains], last=True)
+        found = self.work.newest_results([chain for _, chain in chains], last=True)
         return [(way, one) for (way, _), one in zip(chains, found, strict=True)]
 
     @property
@@ -126,7 +126,7 @@ class DiagramDensity(Part[OrbitDiagram]):
         from scipy.ndimage import maximum_filter1d
 
         near = maximum_filter1d(there, 2 * _NEAR + 1, axis=0) > 0
-        # Draw falling points near rising ones in the colour of the latter, so that only hysteresis stands out.
+        # Draw falling points near rising points in the colour of the rising ones, so that only hysteresis stands out.
         return view.tones((backward, np.where(near, 0, back), there + np.where(near, back, 0)))
 
     @property
@@ -165,4 +165,4 @@ def _stage(columns: _Columns, number: int) -> Visits:
     if number == 0:
         return columns.visits(columns.starts, _TRANSIENT, columns.first)
     before = Task(_stage, columns, number - 1).get()
-    return columns.visits(before.ends, 0, columns.first * _GROWTH**number).after(before)
+    return columns.visits(before.ends, 0, columns.first * _GROWTH**number).combine(before)

@@ -15,7 +15,7 @@ from hess_explorer.scenes.framework.continuation import Continuation
 from hess_explorer.scenes.framework.families import BranchStart, Family
 from hess_explorer.scenes.framework.part import Part, Start
 from hess_explorer.scenes.framework.periodic_search import NONE, PERIODS
-from hess_explorer.scenes.framework.windows import Window, tidy_window, window_of
+from hess_explorer.scenes.framework.windows import Window, normalized_window, window_of
 from hess_explorer.scenes.parts.diagrams.controls import (
     BACKWARD,
     COORDINATES,
@@ -54,7 +54,7 @@ class OrbitDiagram(Part[DiagramControls]):
         if first == last:
             first = min(first, FARTHEST[1] - 1.0)
             last = first + 1.0
-        window = tidy_window(self.host.window)
+        window = normalized_window(self.host.window)
         (x0, _), (x1, _) = window_of(window, ((first, 0.0), (last, 0.0)))
         return {
             "first": first,
@@ -135,19 +135,19 @@ class OrbitDiagram(Part[DiagramControls]):
     def parameter_values(self) -> Array:
         """The values of the parameter (n,), increasing."""
         share = self.work.plan(Kind.SECTION).share
-        steps = min(int(self.host.steps), _FEW) if self.work.dragging else max(2, round(share * self.host.steps))
+        steps = min(int(self.host.steps), _FEW) if self.work.is_preview else max(2, round(share * self.host.steps))
         return np.linspace(self.frame[0][0], self.frame[1][0], steps)
 
     @cached_property
     def _ramps(self) -> dict[str, Ramp]:
         """The ramp of each requested way."""
         level = self.work.plan(Kind.SECTION).level
-        left, shown = (40, 20) if self.work.dragging else (int(self.host.transient), int(self.host.count))
+        left, shown = (40, 20) if self.work.is_preview else (int(self.host.transient), int(self.host.count))
         values = tuple(self.parameter_values.tolist())
         rising = Ramp(self.family, values, self.point, left, shown, self.host.begins == FOLLOWED, level)
         ramps = {
             RISING: rising,
-            FALLING: replace(rising, values=values[::-1], before=rising),
+            FALLING: replace(rising, values=values[::-1], previous=rising),
             BACKWARD: replace(rising, backward=True),
         }
         return {way: ramps[way] for way in WAYS[self.host.ways]}
@@ -160,7 +160,7 @@ class OrbitDiagram(Part[DiagramControls]):
         numbers = product(self._ramps, self._ramps[RISING].pieces)
         for way, i in sorted(numbers, key=lambda one: (one[0] == FALLING, one[1])):
             task = Task(piece, self._ramps[way], i)
-            known = self.work.need(task, preview=task if self.work.dragging else None)
+            known = self.work.need(task, preview=task if self.work.is_preview else None)
             found[way] += [] if known is None else [known]
         return found
 
@@ -182,7 +182,7 @@ class OrbitDiagram(Part[DiagramControls]):
     @property
     def _locates(self) -> bool:
         """True if period doublings are located: not during a drag, and not at the level `draft`."""
-        return not self.work.dragging and self.work.level.name != "draft"
+        return not self.work.is_preview and self.work.level.name != "draft"
 
     @cached_property
     def doubling(self) -> tuple[float, Array, float] | None:
@@ -266,7 +266,7 @@ class DiagramBranch(Continuation[OrbitDiagram]):
     period: str
 
     @property
-    def begin(self) -> BranchStart | None:
+    def branch_start(self) -> BranchStart | None:
         """The start of the branch; None if no orbit is requested and no period doubling is visible."""
         host = self.host
         at, point, period = host.value, host.point, PERIODS.get(self.period)

@@ -53,7 +53,7 @@ class HessSplit(Part[Host]):
     @cached_property
     def _splits(self) -> dict[float, Split | NotFound] | None:
         """The splits by ε, for the graph and for the slope; None until all are known."""
-        # Without separatrices at ε = 0 nothing can split.
+        # Without separatrices at ε = 0 there is nothing to split.
         first = self.work.need(Task(_split, self.torus, 0.0), preview=None)
         if not isinstance(first, Split):
             return None if first is None else {0.0: first}
@@ -146,7 +146,7 @@ split_picture = Plot[HessSplit](
     y=compose(_values, lambda found: axis_about_0(found[1], 1e-12)),
     layers=(
         levels("levels", lambda s: [0.0] if s.splits else []),
-        curves("slope", within=_line, color=theme.MUTED, dash="dashed", label="linear, with the slope at ε = 0"),
+        curves("slope", data_in_axes=_line, color=theme.MUTED, dash="dashed", label="linear, with the slope at ε = 0"),
         points(
             "splits",
             _values,

@@ -40,7 +40,7 @@ class Ramp:
     values : tuple of float
         Values of the parameter.
     point : tuple of float
-        Start of the orbit in the section, without `before`.
+        Start of the orbit in the section, without `previous`.
     transient, count : int
         Numbers of omitted and of drawn crossings at each value.
     follow : bool
@@ -49,7 +49,7 @@ class Ramp:
         Level of accuracy.
     backward : bool
         True to follow the orbit backward in time.
-    before : Ramp or None
+    previous : Ramp or None
         The ramp whose end is the start of this one.
     """
 
@@ -61,7 +61,7 @@ class Ramp:
     follow: bool
     level: Level
     backward: bool = False
-    before: Ramp | None = None
+    previous: Ramp | None = None
 
     @property
     def pieces(self) -> range:
@@ -90,7 +90,7 @@ def piece(ramp: Ramp, number: int) -> Diagram:
 def _reached(ramp: Ramp, number: int) -> Point:
     """Return the last point of the orbit in the section before a piece."""
     if number == 0:
-        return ramp.point if ramp.before is None else _reached(ramp.before, len(ramp.before.pieces))
+        return ramp.point if ramp.previous is None else _reached(ramp.previous, len(ramp.previous.pieces))
     before: Diagram = Task(piece, ramp, number - 1).get()
     ends = before.ends[np.isfinite(before.ends).all(axis=1)]
     return tuple(ends[-1].tolist()) if len(ends) else _reached(ramp, number - 1)

@@ -36,12 +36,12 @@ from hess_explorer.views.plot import Plot
 from hess_mechanics.numerics.accuracy import Kind, Plan
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess import rotation_number as mechanics
-from hess_mechanics.suslov_hess.bifurcation import f_max_each
+from hess_mechanics.suslov_hess.bifurcation import f_max_of_energies
 from hess_mechanics.suslov_hess.rotation_number import Torus, TorusValues
 
 _COARSE, _FINE = (75, 50), (300, 200)
-_ROWS = 25  # rows of the fine map per task
-_ON_CURVE = 48  # points of the boundary of the Arnold tongue
+_ROWS = 25  # Rows of the fine map per task.
+_ON_CURVE = 48  # Points of the boundary of the Arnold tongue.
 _ON_EDGE = 300
 FULL = {"h": (-1.0, 4.0), "f": (-3.0, 3.0), "a": (0.0, 2.0)}
 BOUNDS = {"h": (-1.0, 1e6), "f": (-1e4, 1e4), "a": (-100.0, 100.0)}
@@ -94,7 +94,7 @@ class RotationMap(Part[Host]):
     @property
     def _beside(self) -> Torus:
         """The torus with both parameters of the map set to 0, as a cache key."""
-        return self.torus.at(**dict.fromkeys(self.sides, 0.0))
+        return self.torus.with_values(**dict.fromkeys(self.sides, 0.0))
 
     def rows(self, plan: Plan, part: slice = slice(None)) -> Task[TorusValues]:
         """Return the task of some rows of the fine map."""
@@ -107,7 +107,7 @@ class RotationMap(Part[Host]):
         """Values of the map and its size (m, n) in cells; a coarse map until the fine one is known."""
         plan = self.work.plan(Kind.GRID)
         fine = plan.grid(_FINE)
-        if not self.work.dragging:
+        if not self.work.is_preview:
             parts = [
                 self.work.need(self.rows(plan, slice(first, first + _ROWS)), preview=None)
                 for first in range(0, fine[1], _ROWS)
@@ -124,7 +124,7 @@ class RotationMap(Part[Host]):
 
         Cells without a torus repeat the nearest one, so that both can be interpolated up to the edge.
         """
-        from scipy.ndimage import distance_transform_edt  # imported here because it is slow
+        from scipy.ndimage import distance_transform_edt  # Imported here because the import is slow.
 
         values, (m, n) = self.grid
         outside = ~values.possible.reshape(n, m)
@@ -140,11 +140,11 @@ class RotationMap(Part[Host]):
     def tongue_boundary(self, plan: Plan) -> Task[Array]:
         """Return the task of the boundary |t| = 2 of the Arnold tongue in the map, points (n, 2)."""
         window = *self.window[0], *self.window[1]
-        return Task(mechanics.lock_curve, self.plane, self._beside, window, plan.level, plan.side(_ON_CURVE))
+        return Task(mechanics.tongue_curve, self.plane, self._beside, window, plan.level, plan.side(_ON_CURVE))
 
     def _boundary(self) -> list[Array]:
         """Return the curve |t| = 2 in the map; empty until known."""
-        if self.work.dragging:
+        if self.work.is_preview:
             return []
         found = self.work.need(self.tongue_boundary(self.work.plan(Kind.CURVE)), preview=None)
         if found is None or not len(found):
@@ -176,7 +176,7 @@ class RotationMap(Part[Host]):
         """The bifurcation curve (n, 2) with f ≥ 0 within the window; it is independent of a."""
         low, high = self.window[0]
         energies = np.linspace(max(low, -1.0), high, _ON_EDGE)
-        return np.column_stack([energies, f_max_each(energies)])
+        return np.column_stack([energies, f_max_of_energies(energies)])
 
     def _edges(self) -> list[Array]:
         """Return the boundary curves (n, 2) of the possible tori."""
@@ -207,7 +207,7 @@ class RotationMap(Part[Host]):
         if self.has_result("grid"):
             m, n = self.grid[1]
             task = Task(mechanics.rows_error, self.plane, self._beside, self.window, self.work.plan(Kind.GRID).level)
-            error = None if self.work.dragging else self.work.need(task, preview=None)
+            error = None if self.work.is_preview else self.work.need(task, preview=None)
             yield f"map {m} × {n}" + (f", error of ρ ≤ {error:.1e} in 99 % of the cells" if error is not None else "")
 
 
@@ -215,7 +215,7 @@ rotation_map = Plot[RotationMap](
     name="map",
     title=lambda s: f"Rotation number ρ over ({s.plane})",
     axes=lambda s: s.sides,
-    caption=lambda s: Caption("ρ locks at 0 only."),
+    caption=lambda s: Caption("ρ locks only at integers, here at 0."),
     x=lambda s: s.window[0],
     y=lambda s: s.window[1],
     on_click=RotationMap.choose,
@@ -234,12 +234,12 @@ rotation_map = Plot[RotationMap](
         curves(
             "boundary",
             RotationMap._boundary,
-            moving=False,
+            is_overlay=False,
             color=theme.INK,
             label="boundary of the Arnold tongue, |trace| = 2",
         ),
         region("forbidden", RotationMap._impossible, label="impossible", tag="impossible"),
-        curves("edge", RotationMap._edges, moving=False, color=theme.INK, width=1.5),
+        curves("edge", RotationMap._edges, is_overlay=False, color=theme.INK, width=1.5),
         curves("across-under", RotationMap._across, color=theme.PAPER, width=4, alpha=0.7),
         curves("across", RotationMap._across, color=theme.INK, dash="dashed", label="line of ρ", tag="line of ρ"),
         *target("here", RotationMap._here),

@@ -37,7 +37,7 @@ class Costs:
     work : Work
         Computation of the state.
     base : State
-        The `bare` state to measure.
+        The `without_grid` state to measure.
     trials : tuple of Trial
         Its computations.
     """
@@ -95,11 +95,11 @@ class Costs:
 
     def caption(self) -> Caption:
         """Return the caption: the cheapest sufficient level for each trial that has been measured."""
-        if self.work.dragging:
-            return Caption("Measured when a slider is released.")
+        if self.work.is_preview:
+            return Caption("Measured when the slider is released.")
         known = [found for found in self.results.values() if found is not None]
         if len(known) < len(self.results):
-            return Caption("Being measured.", f"{len(known)} of {len(self.results)} so far.")
+            return Caption("The costs are being measured.", f"{len(known)} of {len(self.results)} so far.")
         sentences = []
         for trial, found in self.results.items():
             if isinstance(found, Refusal):

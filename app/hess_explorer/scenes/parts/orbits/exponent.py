@@ -54,13 +54,13 @@ class OrbitExponent(Part[_Host]):
 
     @property
     def growth(self) -> tuple[float, float] | None:
-        """Growth rate ln|μ₁|/T and mean divergence ln|μ₁μ₂|/T of the periodic orbit; None without one."""
+        """Growth rate ln|μ₁|/T and mean divergence ln|μ₁μ₂|/T of the periodic orbit; None without a periodic orbit."""
         return self.host.periodic_orbit.growth
 
     @property
     def must_wait(self) -> bool:
         """True if the exponent has to wait: during a drag, or if a periodic orbit is shown or searched for."""
-        return self.work.dragging or self.host.periodic_orbit.is_searching or self.growth is not None
+        return self.work.is_preview or self.host.periodic_orbit.is_searching or self.growth is not None
 
     @cached_property
     def _answer(self) -> spectrum.Exponent | NotFound | None:
@@ -76,7 +76,7 @@ class OrbitExponent(Part[_Host]):
         """The exponent of a non-periodic orbit; None until known, and if the motion ends early."""
         return None if isinstance(self._answer, NotFound) else self._answer
 
-    def at(self, plan: Plan) -> spectrum.Exponent:
+    def compute(self, plan: Plan) -> spectrum.Exponent:
         """Return the exponent, computed at once."""
         return spectrum.lyapunov_exponent(self.host.body, self.host.start, plan.share * self.host.long, plan.level)
 
@@ -101,7 +101,9 @@ class OrbitExponent(Part[_Host]):
     def caption(self) -> Caption:
         """The caption of the picture."""
         if self.growth is not None:
-            return Caption("From the multipliers of the periodic orbit.", f"ln|μ₁|/T = {digits(self.growth[0])}.")
+            return Caption(
+                "Exponent from the multipliers of the periodic orbit.", f"ln|μ₁|/T = {digits(self.growth[0])}."
+            )
         found = self._answer
         if found is None:
             return Caption(self.work.pending_caption())
@@ -156,7 +158,7 @@ def exponent_trial() -> Trial[Any]:
     return Trial(
         Kind.EXPONENT,
         ("exponent",),
-        lambda s, plan: s.exponent.at(plan),
+        lambda s, plan: s.exponent.compute(plan),
         lambda s, found, truth: abs(found.value - truth.value) / max(truth.spread, 1e-12),
         unit="of its change in the second half of the time",
         tolerance=10.0,

@@ -32,7 +32,7 @@ def shading() -> Any:
         "Torus in space",
         (PLAIN, INVARIANT),
         PLAIN,
-        doc="Greener where the invariant density is larger. It exists only without limit cycles.",
+        doc="Shades the torus by its invariant density, which exists only without limit cycles.",
     )
 
 
@@ -105,17 +105,17 @@ class HessSurface(Part[HasTorus]):
 
     Attributes
     ----------
-    shaded : bool
+    has_density : bool
         True to shade it by its invariant density.
     orbit : callable
         `orbit()` returns the orbit as reduced states (n, 5) in units b = 1, and its times (n,).
-    says : callable
-        `says()` returns the second part of the caption.
+    description : callable
+        `description()` returns the second part of the caption.
     """
 
-    shaded: bool
+    has_density: bool
     orbit: Callable[[], tuple[Array, Array]]
-    says: Callable[[], str] = lambda: FORMULA
+    description: Callable[[], str] = lambda: FORMULA
 
     @cached_property
     def section(self) -> CrossSection | None:
@@ -128,10 +128,10 @@ class HessSurface(Part[HasTorus]):
     @cached_property
     def density(self) -> tuple[Complex | None, str]:
         """The points ζ of the invariant density along the cross-section, or None; and the reason for None."""
-        if not self.shaded or self.section is None:
+        if not self.has_density or self.section is None:
             return None, ""
         map_ = self.host.map
-        # The caption of the torus states the reason.
+        # The caption of the torus already states the reason.
         if map_ is None or torus_density.reason_for_no_density(map_, self.host.turning_points):
             return None, "No density."
         try:
@@ -153,7 +153,7 @@ class HessSurface(Part[HasTorus]):
         """Return the caption: kind and formula of the surface, or the reason why it has no density."""
         if self.section is None:
             return Caption("No torus.", "The Hess manifold has no motion with these h and f.")
-        return caption(self.host.map, self.host.turning_points, self.says(), self.density[1])
+        return caption(self.host.map, self.host.turning_points, self.description(), self.density[1])
 
 
 surface_picture = TorusInSpace[HessSurface](

@@ -47,8 +47,8 @@ class Precision:
         """Error and cost of every level, and of SciPy's methods unless they are slow."""
         others = (
             ()
-            if self.work.dragging or mechanics.others_take_long(*self.limited_motion.arguments)
-            else self.work.need(Task(mechanics.measure_others, *self.limited_motion.arguments, SAMPLES))
+            if self.work.is_preview or mechanics.scipy_takes_long(*self.limited_motion.arguments)
+            else self.work.need(Task(mechanics.measure_scipy, *self.limited_motion.arguments, SAMPLES))
         )
         return self.work.need(Task(mechanics.measure_levels, *self.limited_motion.arguments, SAMPLES)) + others
 
@@ -110,17 +110,17 @@ class Precision:
         }
 
     def choose(self, x: float, y: float) -> Mapping[str, str]:
-        """Return the level whose point lies nearest to the error x."""
+        """Return the level with the error nearest to x."""
         if not x > 0.0:
             return {}
         return {"accuracy": min(self._taylor, key=lambda point: abs(math.log10(max(point.error, _FLOOR) / x))).setting}
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def _about_cost(self) -> Caption:
         here = self._here
         numbers_text = f"{self.work.level_name}: {digits(here.ms, 2)} ms, error {digits(here.error, 2)}"
-        other = mechanics.quickest_other(self.work_points, 10.0 * here.error)
+        other = mechanics.fastest_scipy_method(self.work_points, 10.0 * here.error)
         if other is not None:
             numbers_text += f"; {other.method}: {digits(other.ms / here.ms, 2)} × as long, {digits(other.error, 2)}"
         return Caption(numbers=f"{numbers_text}.")
@@ -168,8 +168,8 @@ class Precision:
         """Yield the limits of the measurement with reasons."""
         motion = self.limited_motion
         if motion.duration < self.motion.duration:
-            yield f"Measured up to t = {digits(motion.duration * motion.unit)}: a longer span takes seconds."
-        if "work_points" in vars(self) and mechanics.others_take_long(*motion.arguments):
+            yield f"Measured up to t = {digits(motion.duration * motion.unit)}, because more takes several seconds."
+        if "work_points" in vars(self) and mechanics.scipy_takes_long(*motion.arguments):
             yield "SciPy's methods are slow over this time span and were omitted: choose a shorter one."
 
 

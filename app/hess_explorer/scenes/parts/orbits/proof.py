@@ -74,7 +74,7 @@ class OrbitProof(Part[_Host]):
     @cached_property
     def error(self) -> ProvedError | None:
         """The proved error; None until known, if it is hidden, and during a drag."""
-        if self.work.dragging or self.certain != SHOWN:
+        if self.work.is_preview or self.certain != SHOWN:
             return None
         if not has_flint():
             return ProvedError("proofs need python-flint: pip install 'hess-explorer[prove]'")
@@ -163,8 +163,8 @@ def _band(omega: Array, errors: Array, sizes: Array) -> list[Array]:
 
 def hull(points: Array) -> Array:
     """Return the closed convex hull (m, 2) of points (n, 2)."""
-    from scipy.spatial import ConvexHull  # imported here because it is slow and few states draw a band
+    from scipy.spatial import ConvexHull  # Imported here because the import is slow and few states draw a band.
 
-    # QJ joggles the last digits, so that collinear points raise no error.
+    # Qhull's option QJ joggles the input, so that collinear points raise no error.
     corners = ConvexHull(points, qhull_options="QJ").vertices
     return np.asarray(points[[*corners, corners[0]]])

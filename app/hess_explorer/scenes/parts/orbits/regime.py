@@ -17,7 +17,7 @@ from hess_mechanics.dynamics.regime import Dynamics, comparison, regime
 from hess_mechanics.dynamics.return_map import ReturnMap
 from hess_mechanics.errors import NoReturn
 from hess_mechanics.numerics.accuracy import Kind
-from hess_mechanics.numerics.results import Array, frozen
+from hess_mechanics.numerics.results import Array, as_read_only
 
 _NOTHING = np.empty((0, 2))
 _LONG = 500, 1500
@@ -51,19 +51,19 @@ class OrbitRegime(Part[_Host]):
     @cached_property
     def sets(self) -> tuple[Array, Array]:
         """Points (n, 2) of attractor and repeller; empty until known."""
-        few = (60, 120) if self.work.dragging else _LONG
+        few = (60, 120) if self.work.is_preview else _LONG
         task = Task(sets_of, self._map, self.host.point, *few)
-        return self.work.need(task, preview=task if self.work.dragging else None) or (_NOTHING, _NOTHING)
+        return self.work.need(task, preview=task if self.work.is_preview else None) or (_NOTHING, _NOTHING)
 
     @cached_property
     def kind(self) -> Dynamics | None:
         """The kind of motion and of dynamics; None until known."""
-        if self.work.dragging:
+        if self.work.is_preview:
             return None
         duration = self.work.plan(Kind.EXPONENT).share * self.long
         task = Task(_dynamics, self._map, self.host.point, *_LONG, duration)
-        # Compute it after the orbits and doublings of the diagram, because it takes as long as all of these.
-        return self.work.newest([[task]], last=True)[0]
+        # Classify the motion after the orbits and doublings of the diagram, because it takes as long as all of these.
+        return self.work.newest_results([[task]], last=True)[0]
 
     @property
     def caption(self) -> Caption:
@@ -95,7 +95,8 @@ def sets_of(map_: ReturnMap, start: Point, transient: int, crossings: int) -> tu
     Raises `OutsideRegion` if no motion is possible there, and `WorkLimit`.
     """
     attractor, repeller = (
-        frozen(one.orbit(np.array(start), transient + crossings)[transient:].copy()) for one in (map_, map_.inverse())
+        as_read_only(one.orbit(np.array(start), transient + crossings)[transient:].copy())
+        for one in (map_, map_.inverse())
     )
     return attractor, repeller
 

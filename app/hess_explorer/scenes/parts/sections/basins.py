@@ -107,7 +107,7 @@ class SectionBasins(Part[_Host]):
     @property
     def is_on(self) -> bool:
         """True if basins are shown, in addition to the orbits of the section."""
-        return not self.section.alone
+        return not self.section.is_exclusive
 
     def target(self, plan: Plan) -> _BasinGrid:
         """Return the basins to compute at a level."""
@@ -117,15 +117,15 @@ class SectionBasins(Part[_Host]):
     @cached_property
     def _what(self) -> _BasinGrid | None:
         """The basins to compute; None if none are shown, and during a drag."""
-        return self.target(self.work.plan(Kind.BASINS)) if self.is_on and not self.work.dragging else None
+        return self.target(self.work.plan(Kind.BASINS)) if self.is_on and not self.work.is_preview else None
 
     @cached_property
     def stage(self) -> int:
-        """The newest known stage; −1 before the first one."""
+        """The newest known stage; −1 before the first stage."""
         if self._what is None:
             return -1
         chains = [[Task(_piece, self._what, stage, i) for stage in range(_STAGES)] for i in range(_PARTS)]
-        pieces: list[_Piece | None] = self.work.newest(chains)
+        pieces: list[_Piece | None] = self.work.newest_results(chains)
         return min(-1 if one is None else one.stage for one in pieces)
 
     @property
@@ -174,7 +174,7 @@ class SectionBasins(Part[_Host]):
         ]
         return [one for one in found if isinstance(one, Manifold)]
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     @property
     def caption(self) -> Caption | None:
@@ -293,9 +293,9 @@ def basins_trial() -> Trial[Any]:
     return Trial(
         Kind.BASINS,
         ("section",),
-        lambda s, plan: (_sample if plan.level.aside else _at_once)(s.basins.target(plan)).number.astype(float),
+        lambda s, plan: (_sample if plan.level.is_perturbed else _at_once)(s.basins.target(plan)).number.astype(float),
         lambda s, cells, truth: _error(cells, truth),
         unit="% of the cells that change",
         tolerance=3.0,
-        applies=lambda s: s.basins.is_on,
+        condition=lambda s: s.basins.is_on,
     )

@@ -54,7 +54,7 @@ def end_of_branch(word: str) -> Any:
         bounds=_FARTHEST,
         label=f"Branch {word}",
         group="Computation",
-        doc="Range of “Branch of the periodic orbit”. If both ends are equal, it surrounds the current value.",
+        doc="Range of “Branch of the periodic orbit”. If both ends are equal, the range surrounds the current value.",
     )
 
 
@@ -138,23 +138,23 @@ class SectionBranch(Continuation[_Section]):
         return low, high
 
     @cached_property
-    def begin(self) -> BranchStart | None:
+    def branch_start(self) -> BranchStart | None:
         """The start of the branch; None without a periodic orbit."""
-        if self.orbit.host.aim is None or self.orbit.closed_orbit is None:
+        if self.orbit.host.start_point is None or self.orbit.closed_orbit is None:
             return None
         low, high = self.ends
         family = Family.of(self.host, self.name, self.host.over, (*self.along.values(), *self.besides))
         return BranchStart(
             family,
             self.value,
-            self.orbit.host.aim,
+            self.orbit.host.start_point,
             PERIODS[self.orbit.period],
             (min(low, self.value), max(high, self.value)),
         )
 
     @property
     def orbit_points(self) -> Array | None:
-        """The points (2, m) of the periodic orbit in the picture; None without one."""
+        """The points (2, m) of the periodic orbit in the picture; None without a periodic orbit."""
         closed = self.orbit.closed_orbit
         return None if closed is None else np.array([(self.value, point[self.side]) for point in closed.orbit.points]).T
 
@@ -209,13 +209,15 @@ class SectionBranch(Continuation[_Section]):
             return {}
         return {"low": low, "high": high}
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     @property
     def caption(self) -> Caption:
         """The caption of the picture."""
         if not self.orbit.is_on:
-            return Caption("No periodic orbit is chosen.", "Choose one, then click its branch to select an orbit.")
+            return Caption(
+                "No periodic orbit is chosen.", "Choose a periodic orbit, then click its branch to select an orbit."
+            )
         return Caption(self.work.pending_caption("A periodic orbit is")) if self.orbit.is_searching else super().caption
 
     @property
@@ -230,7 +232,7 @@ class SectionBranch(Continuation[_Section]):
         """Return the meanings of the choices of the branch, which differ between scenes."""
         return dict.fromkeys(("over", "low", "high", "upwards"), f"branch of {type(self.host).__name__}")
 
-    def idle(self) -> Mapping[str, float]:
+    def idle_values(self) -> Mapping[str, float]:
         """Return the ends of the range if there is no branch, because they have no effect."""
         return {} if self.orbit.is_on else {"low": self.host.low, "high": self.host.high}
 
@@ -266,12 +268,17 @@ def branch_picture() -> Picture[Any]:
         y=lambda s: s.vertical_range,
         layers=(
             curves(
-                "value", within=at_the_value, color=theme.INK, width=1.5, label="current state", tag="current state"
+                "value",
+                data_in_axes=at_the_value,
+                color=theme.INK,
+                width=1.5,
+                label="current state",
+                tag="current state",
             ),
             *view.layers(itself),
             points(
                 "shown",
-                within=shown,
+                data_in_axes=shown,
                 size=15,
                 color=theme.INK,
                 hollow=True,

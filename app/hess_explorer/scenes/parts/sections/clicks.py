@@ -55,7 +55,7 @@ def points_of_each(default: float) -> Any:
 
 
 class _Filled(PoincareSection, Protocol):
-    def impossible(self, window: Window) -> Array:
+    def forbidden_cells(self, window: Window) -> Array:
         """Return cells (m, n) over the window: 1 in the forbidden region."""
 
 
@@ -87,13 +87,13 @@ class _Chosen:
         Points in the section.
     states : sequence of tuple
         States (d,) at these points.
-    impossible : tuple or None
+    forbidden_cells : tuple or None
         Chosen point of the current orbit, if no motion is possible there.
     """
 
     points: Sequence[Point]
     states: Sequence[Start]
-    impossible: Point | None = None
+    forbidden_cells: Point | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,13 +102,13 @@ class Clicks(Part[_Host]):
 
     Attributes
     ----------
-    excuse : str
+    reason : str
         Reason why some points have no orbit.
     remedy : str
         Choices with which all points have an orbit.
     """
 
-    excuse: str
+    reason: str
     remedy: str = "a larger h"
 
     @property
@@ -122,7 +122,7 @@ class Clicks(Part[_Host]):
 
     @cached_property
     def selection(self) -> _Chosen:
-        """The chosen starts with a motion; if the last one has none, another start replaces all of them.
+        """The chosen starts with a motion; if the last start has no motion, another start replaces them all.
 
         Raises `InvalidParameter` if no motion is possible in the window.
         """
@@ -135,7 +135,7 @@ class Clicks(Part[_Host]):
         others = others or [*_spread(self.host, 1)]
         if not others:
             raise InvalidParameter(
-                f"In this window {self.excuse}: choose {self.remedy}, or More → Remove clicks and boxes."
+                f"In this window {self.reason}: choose {self.remedy}, or More → Remove clicks and boxes."
             )
         return _Chosen([_point(self.host.poincare.points_of(np.array(others))[0])], [others[0]], chosen[-1])
 
@@ -155,9 +155,11 @@ class Clicks(Part[_Host]):
         return (len(self.selection.points) - 1) % len(theme.CHOSEN)
 
     @cached_property
-    def impossible(self) -> Array:
+    def forbidden_cells(self) -> Array:
         """Cells (m, n) over the window: 1 in the forbidden region."""
-        return self.work.need(Task(type(self.host.poincare).impossible, self.host.poincare, self.host.section.frame))
+        return self.work.need(
+            Task(type(self.host.poincare).forbidden_cells, self.host.poincare, self.host.section.frame)
+        )
 
     def add(self, x: float, y: float) -> Values:
         """Return the starts with another orbit added at (x, y)."""
@@ -185,9 +187,9 @@ class Clicks(Part[_Host]):
 
     def notes(self) -> Iterator[str]:
         """Yield a note if no motion is possible at the chosen start."""
-        if self.selection.impossible is not None:
+        if self.selection.forbidden_cells is not None:
             yield (
-                f"At {self._at(self.selection.impossible)} {self.excuse}: the chosen orbit starts at "
+                f"At {self._at(self.selection.forbidden_cells)} {self.reason}: the chosen orbit starts at "
                 f"{self._at(self.selection.points[0])}."
             )
 
@@ -207,13 +209,13 @@ def filled_section(state: Any, held: int, **more: Any) -> Section:
 
     def seeds(section: Section) -> list[tuple[Start, ...]]:
         count = int(state.orbits)
-        return [*batches(_spread(state, min(count, held) if section.work.dragging else count))]
+        return [*batches(_spread(state, min(count, held) if section.work.is_preview else count))]
 
     return Section(
         state,
         lambda: state.clicks.selection.states,
         seeds=seeds,
-        at_once=False,
+        is_immediate=False,
         **more,
     )
 

@@ -69,12 +69,15 @@ class SectionDensity(Part[Section]):
     @cached_property
     def _visits(self) -> list[Visits | None]:
         """The newest visits of each group of orbits; empty during a drag."""
-        if not self.is_on or self.work.dragging:
+        if not self.is_on or self.work.is_preview:
             return []
         where = self.host.poincare, self.host.frame
-        return self.work.newest(
+        return self.work.newest_results(
             [
-                [Task(_stage, *where, starts, self._ways[kind], self.host.later, i) for i in range(self._stages)]
+                [
+                    Task(_stage, *where, starts, self._ways[kind], self.host.second_half_only, i)
+                    for i in range(self._stages)
+                ]
                 for kind, starts in self._kinds
             ]
         )
@@ -82,7 +85,7 @@ class SectionDensity(Part[Section]):
     @property
     def _ways(self) -> tuple[bool, ...]:
         """The direction of time of each kind."""
-        return (True,) * self.kinds or self.host.ways
+        return (True,) * self.kinds or self.host.directions
 
     @property
     def _stages(self) -> int:
@@ -132,4 +135,4 @@ def _stage(
         return visits(section, window, _PIXELS, starts, _FIRST, forward, _LEVEL)
     before: Visits = Task(_stage, section, window, starts, forward, later, number - 1).get()
     found = visits(section, window, _PIXELS, before.ends, _FIRST << number, forward, _LEVEL)
-    return found if later else found.after(before)
+    return found if later else found.combine(before)

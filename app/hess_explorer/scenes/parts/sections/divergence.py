@@ -56,7 +56,8 @@ class Divergence(OrbitExponent):
         if self.growth is not None:
             across, divergence = map(digits, self.growth)
             return Caption(
-                "From the multipliers of the periodic orbit.", f"ln|μ₁|/T = {across}, div = ln|μ₁μ₂|/T = {divergence}."
+                "Exponent from the multipliers of the periodic orbit.",
+                f"ln|μ₁|/T = {across}, div = ln|μ₁μ₂|/T = {divergence}.",
             )
         found, course = self.result, self.divergence
         if found is None or course is None:

@@ -67,13 +67,13 @@ class Indicator(Part[Section]):
         m, n = plan.grid(CELLS)
         cells = m // coarse, n // coarse
         frame = self.host.frame
-        windows = (_aside(frame, cells, row) if plan.level.aside else frame for row in range(cells[1]))
+        windows = (_aside(frame, cells, row) if plan.level.is_perturbed else frame for row in range(cells[1]))
         return [(self.host.poincare, one, cells, row, self.time, plan.level) for row, one in enumerate(windows)]
 
     @cached_property
     def _cells(self) -> tuple[Array, int] | None:
         """The rows (3, m) of `row_of_cells`, and the number of coarse rows; None until all coarse rows are known."""
-        if not self.is_on or self.work.dragging:
+        if not self.is_on or self.work.is_preview:
             return None
         plan = self.work.plan(Kind.INDICATOR)
         return cells_by_rows(
@@ -88,10 +88,12 @@ class Indicator(Part[Section]):
     @property
     def caption(self) -> Caption | None:
         """The caption of a section with MEGNO; None without it."""
-        if not self.is_on or self.work.dragging:
+        if not self.is_on or self.work.is_preview:
             return None
         if self._cells is None or self._cells[1]:
-            return Caption(self.work.pending_caption(), f"MEGNO after t = {digits(self.time)}: first coarse cells.")
+            return Caption(
+                self.work.pending_caption(), f"MEGNO after t = {digits(self.time)}; only coarse cells so far."
+            )
         kinds = self._cells[0][:, 1]
         there = kinds[kinds >= 0.0]
         if not there.size:
@@ -142,5 +144,5 @@ def indicator_trial() -> Trial[Any]:
         lambda s, cells, truth: change_percentage(cells, truth),
         unit="% of the cells that change",
         tolerance=3.0,
-        applies=lambda s: s.megno.is_on,
+        condition=lambda s: s.megno.is_on,
     )

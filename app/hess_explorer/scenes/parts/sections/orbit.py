@@ -81,7 +81,7 @@ class BodyOrbit(Part[_Host]):
     @property
     def caption(self) -> Caption:
         """The caption: the time span, and whether the motion ends early."""
-        ends = "Ends early." if self.path.reason else ""
+        ends = "The motion ends early." if self.path.reason else ""
         return Caption(ends, f"From t = 0 to t = {digits(float(self.path.times[-1]))}.")
 
     def notes(self) -> Iterator[str]:

@@ -13,9 +13,9 @@ from hess_explorer.compute.cache import Task
 from hess_explorer.scenes.framework.part import Part
 from hess_explorer.scenes.framework.periodic_search import (
     ANY,
-    AT_ITS_LENGTH,
-    MOST_CROSSINGS,
-    MOST_POINTS,
+    LENGTH_REACHED,
+    MAX_CROSSINGS,
+    MAX_POINTS,
     NONE,
     PERIODS,
     BranchChoice,
@@ -66,7 +66,7 @@ def length_of_manifolds() -> Any:
         bounds=(0.0, 100.0),
         label="Length of manifolds",
         group="Computation",
-        doc=f"Of each branch, in units of the axes of the section; at most {MOST_POINTS} points.",
+        doc=f"Length of each branch, in units of the axes of the section; at most {MAX_POINTS} points.",
     )
 
 
@@ -93,19 +93,19 @@ class SectionPeriodicOrbit(Part[Section]):
     @property
     def _search(self) -> Search | None:
         """The arguments of `find_orbit`; None if there is nothing to search for."""
-        if not self.is_on or self.host.aim is None:
+        if not self.is_on or self.host.start_point is None:
             return None
         # The error of an unstable orbit grows along it.
-        level, held = self.work.level, self.work.dragging
+        level, held = self.work.level, self.work.is_preview
         level = level if held else max(level, PRECISE, key=lambda rung: rung.order)
-        return ReturnMap(self.host.poincare, level), self.host.aim, PERIODS[self.period], held
+        return ReturnMap(self.host.poincare, level), self.host.start_point, PERIODS[self.period], held
 
     @cached_property
     def _result(self) -> ClosedOrbit | NotFound | None:
         if self._search is None:
             return None
         task = Task(find_orbit, *self._search)
-        return self.work.need(task, preview=task if self.work.dragging else None)
+        return self.work.need(task, preview=task if self.work.is_preview else None)
 
     @property
     def is_searching(self) -> bool:
@@ -135,7 +135,7 @@ class SectionPeriodicOrbit(Part[Section]):
         """The branches of a saddle's manifolds, empty for any other orbit; None until all are known."""
         if self._manifold_key is None:
             return []
-        if self.work.dragging:
+        if self.work.is_preview:
             return None
         search, branches, pixel = self._manifold_key
         found = [self.work.need(Task(branch_of, search, one, self.reach, pixel), preview=None) for one in branches]
@@ -164,7 +164,7 @@ class SectionPeriodicOrbit(Part[Section]):
     @property
     def homoclinic(self) -> list[Intersection]:
         """The reliable crossings of the drawn manifolds of a saddle."""
-        return [one for some in self._intersections or () for one in some if one.certain]
+        return [one for some in self._intersections or () for one in some if one.is_certain]
 
     @property
     def _saddle(self) -> mechanics.PeriodicOrbit | None:
@@ -176,7 +176,7 @@ class SectionPeriodicOrbit(Part[Section]):
 
     @property
     def growth(self) -> tuple[float, float] | None:
-        """Growth rate ln|μ₁|/T and mean divergence ln|μ₁μ₂|/T of the periodic orbit; None without one."""
+        """Growth rate ln|μ₁|/T and mean divergence ln|μ₁μ₂|/T of the periodic orbit; None without a periodic orbit."""
         if self.closed_orbit is None:
             return None
         sizes = np.abs(self.closed_orbit.orbit.multipliers)
@@ -185,16 +185,16 @@ class SectionPeriodicOrbit(Part[Section]):
         # If the flow preserves volume, the sum is round-off only.
         return float(logarithms[0]), round(float(logarithms.sum()), 9) + 0.0
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
-    def idle(self) -> Mapping[str, float]:
+    def idle_values(self) -> Mapping[str, float]:
         """Return the length of the manifolds if it has no effect."""
-        return {} if self.is_on or not self.host.alone else {"reach": self.reach}
+        return {} if self.is_on or not self.host.is_exclusive else {"reach": self.reach}
 
     @property
     def caption(self) -> Caption | None:
         """The caption of the section if a periodic orbit is requested; otherwise None."""
-        if not self.is_on or self.host.aim is None:
+        if not self.is_on or self.host.start_point is None:
             return None
         if self.is_searching:
             return Caption("Searching for a periodic orbit.")
@@ -224,7 +224,7 @@ class SectionPeriodicOrbit(Part[Section]):
         if self._saddle is not None and self._branches is None:
             yield self.work.pending_caption("Its manifolds are")
         elif self._branches:
-            whole = sum(_end_reason(one) == AT_ITS_LENGTH for one in self._branches)
+            whole = sum(_end_reason(one) == LENGTH_REACHED for one in self._branches)
             yield f"{whole} of {len(self._branches)} branches of its manifolds are drawn to length {digits(self.reach)}"
             yield self._about_crossings()
 
@@ -245,14 +245,14 @@ class SectionPeriodicOrbit(Part[Section]):
         """Yield the reasons why there is no periodic orbit, or why its manifolds end."""
         if isinstance(self._result, NotFound):
             yield self._result.reason
-        reasons = {_end_reason(one) for one in self._branches or ()} - {AT_ITS_LENGTH}
+        reasons = {_end_reason(one) for one in self._branches or ()} - {LENGTH_REACHED}
         yield from (f"A branch of a manifold ends early. {reason}" for reason in sorted(reasons))
         if any(one.status is not Status.OK for one in self.manifolds):
             yield (
                 "The manifolds are not known to half a pixel: choose a shorter length of manifolds, or a higher "
                 "accuracy."
             )
-        apart = sum(not one.certain for some in self._intersections or () for one in some)
+        apart = sum(not one.is_certain for some in self._intersections or () for one in some)
         if apart:
             yield (
                 f"At {apart} more point{'s' * (apart > 1)} the manifolds meet within their error: whether they "
@@ -269,7 +269,7 @@ class SectionPeriodicOrbit(Part[Section]):
         found = self.homoclinic
         if not found:
             return "No homoclinic point is visible on the drawn parts of the manifolds"
-        least = "at least " if any(len(some) == MOST_CROSSINGS for some in self._intersections) else ""
+        least = "at least " if any(len(some) == MAX_CROSSINGS for some in self._intersections) else ""
         return (
             f"{least}{len(found)} homoclinic point{'s' * (len(found) > 1)} on the drawn parts of the manifolds, error "
             f"{digits(max(one.error for one in found), 1)}; longer manifolds cross more often"

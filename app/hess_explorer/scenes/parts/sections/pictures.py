@@ -74,9 +74,9 @@ def _unseen(s: Any) -> str:
     low, high = np.array(s.section.frame)
     drawn = s.section.chosen_points, s.section.points(), s.section.points(False)
     if (
-        s.dragging
+        s.is_preview
         or s.work.todo
-        or not s.section.alone
+        or not s.section.is_exclusive
         or s.density.tones
         or any(np.all((points >= low) & (points <= high), axis=1).any() for points in drawn)
     ):
@@ -128,7 +128,7 @@ def filled_picture(
                 points(False),
                 lambda s: s.section.points_of_each_chosen,
                 chosen=lambda s: s.clicks.rings,
-                impossible=lambda s: s.clicks.impossible,
+                forbidden_cells=lambda s: s.clicks.forbidden_cells,
                 window=lambda s: s.section.frame,
                 labels=labels,
                 between=between,

@@ -89,7 +89,7 @@ class RotationAcross(Part[_Host]):
                 self.section.batch(
                     tuple(state for _, state in some),
                     True,
-                    _PREVIEW[1] if self.work.dragging else crossings,
+                    _PREVIEW[1] if self.work.is_preview else crossings,
                     plan.level,
                 ),
             )
@@ -97,11 +97,11 @@ class RotationAcross(Part[_Host]):
         ]
 
     def _count(self, plan: Plan) -> int:
-        return _PREVIEW[0] if self.work.dragging else plan.side(_ACROSS)
+        return _PREVIEW[0] if self.work.is_preview else plan.side(_ACROSS)
 
     @cached_property
     def _results(self) -> list[tuple[list[float], OrbitBatch | None]]:
-        held, pieces = self.work.dragging, self._pieces(self.work.plan(Kind.ROTATION))
+        held, pieces = self.work.is_preview, self._pieces(self.work.plan(Kind.ROTATION))
         return [(shares, self.work.need(task, preview=task if held else None)) for shares, task in pieces]
 
     @property
@@ -115,7 +115,7 @@ class RotationAcross(Part[_Host]):
 
     @property
     def _resolution(self) -> float:
-        return _PREVIEW[2] if self.work.dragging else RESOLUTION
+        return _PREVIEW[2] if self.work.is_preview else RESOLUTION
 
     def _profile(self, pieces: Sequence[tuple[list[float], OrbitBatch | None]], plan: Plan) -> RotationProfile:
         known = [(shares, batch.orbits) for shares, batch in pieces if batch is not None]
@@ -128,7 +128,7 @@ class RotationAcross(Part[_Host]):
             self._resolution,
         )
 
-    def at(self, plan: Plan) -> RotationProfile:
+    def compute(self, plan: Plan) -> RotationProfile:
         """Return the rotation numbers along the line, computed at once."""
         return self._profile([(shares, task.compute()) for shares, task in self._pieces(plan)], plan)
 
@@ -151,7 +151,7 @@ class RotationAcross(Part[_Host]):
     def chaotic_parts(self, axes: Axes) -> list[list[Array]]:
         """Return rectangles over the chaotic parts of the line."""
         low, high = axes.y
-        return [[np.array([[a, low], [b, low], [b, high], [a, high]])] for a, b in self.profile.sea]
+        return [[np.array([[a, low], [b, low], [b, high], [a, high]])] for a, b in self.profile.chaotic_intervals]
 
     def caption(self) -> Caption:
         """Return the caption of the picture."""
@@ -166,7 +166,7 @@ class RotationAcross(Part[_Host]):
         if low == high:
             return Caption("One rotation number for all closed curves.", f"ρ = {low}{standing}.")
         if turning is None:
-            return Caption("ρ of the closed curves.", f"From {low} to {high}{standing}.")
+            return Caption("Rotation numbers of the closed curves.", f"From {low} to {high}{standing}.")
         return Caption(
             "No twist where ρ has an extremum.",
             f"ρ from {low} to {high}, extremum {self._turns(turning[1])} at {digits(turning[0])}.",
@@ -187,7 +187,7 @@ def rotation_trial() -> Trial[Any]:
     return Trial(
         Kind.ROTATION,
         ("rotation",),
-        lambda s, plan: s.rotation.at(plan),
+        lambda s, plan: s.rotation.compute(plan),
         lambda s, found, truth: found.distance(truth),
         unit="turns, the median",
         tolerance=RESOLUTION,
@@ -212,10 +212,10 @@ def rotation_picture() -> Picture[Any]:
         layers=(
             region(
                 "sea",
-                within=lambda s, axes: s.rotation.chaotic_parts(axes),
+                data_in_axes=lambda s, axes: s.rotation.chaotic_parts(axes),
                 color=theme.MUTED + "38",
-                moving=True,
-                label="ρ does not settle",
+                is_overlay=True,
+                label="ρ does not converge",
             ),
             points(
                 "standing",

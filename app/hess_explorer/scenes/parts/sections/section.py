@@ -15,12 +15,12 @@ from hess_explorer.scenes.framework.orbit_batches import OrbitBatch, batch_of
 from hess_explorer.scenes.framework.part import HasSection, Part, Start
 from hess_explorer.scenes.framework.periodic_search import Periodic, Point
 from hess_explorer.scenes.framework.sliders import number
-from hess_explorer.scenes.framework.windows import Window, pixels_in, tidy_window, window_of
+from hess_explorer.scenes.framework.windows import Window, normalized_window, pixels_in, window_of
 from hess_explorer.scenes.framework.work import accuracy_status, drift_status
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.plane.section_plane import concatenate
 from hess_mechanics.dynamics.return_map import PoincareSection, section_crossings
-from hess_mechanics.dynamics.shadowing import lower_median, right_crossings
+from hess_mechanics.dynamics.shadowing import count_correct_crossings, lower_median
 from hess_mechanics.errors import OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD, Kind, Level, Plan
 from hess_mechanics.numerics.results import Array
@@ -96,7 +96,7 @@ class _Host(HasSection, Protocol):
 
     @property
     def periodic_orbit(self) -> Periodic:
-        """The periodic orbit in place of the chosen one."""
+        """The periodic orbit in place of the chosen orbit."""
 
 
 @dataclass(frozen=True)
@@ -105,30 +105,30 @@ class KnownOrbits:
 
     Attributes
     ----------
-    own : list of OrbitBatch or None
+    own_batches : list of OrbitBatch or None
         Batches of the chosen orbits; None for an unknown batch.
     others : list of OrbitBatch or None
         Batches of the other orbits; None for an unknown batch.
-    few : list of OrbitBatch or None
+    preview_batches : list of OrbitBatch or None
         Fewer crossings of the other orbits, until all batches are known.
     reason : str
         Reason why the section is omitted, otherwise an empty string.
     """
 
-    own: list[OrbitBatch | None]
+    own_batches: list[OrbitBatch | None]
     others: list[OrbitBatch | None]
-    few: list[OrbitBatch] | None = None
+    preview_batches: list[OrbitBatch] | None = None
     reason: str = ""
 
     @property
     def chosen_batches(self) -> list[OrbitBatch]:
         """The known batches of the chosen orbits."""
-        return [batch for batch in self.own if batch is not None]
+        return [batch for batch in self.own_batches if batch is not None]
 
     @property
     def batches(self) -> list[OrbitBatch]:
         """The known batches of the other orbits."""
-        return self.few or [batch for batch in self.others if batch is not None]
+        return self.preview_batches or [batch for batch in self.others if batch is not None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,15 +146,15 @@ class Section(Part[_Host]):
         `seeds(section)` returns the starts of the other orbits, in batches.
     max_steps : int
         Largest number of Taylor steps of each orbit.
-    ways : tuple of bool
+    directions : tuple of bool
         Directions of time of the other orbits; True is forward.
-    later : bool
+    second_half_only : bool
         True to draw only the second half of the crossings.
-    whole : callable or None
-        `whole()` returns the window of the whole picture; by default that of the section.
-    at_once : bool
+    default_window : callable or None
+        `default_window()` returns the window of the whole picture; by default that of the section.
+    is_immediate : bool
         True to compute the chosen orbits, and a few crossings of the others, before anything is drawn.
-    alone : bool
+    is_exclusive : bool
         True if the window shows nothing else, such as basins.
     """
 
@@ -162,11 +162,11 @@ class Section(Part[_Host]):
     compute: Callable[..., OrbitBatch] = crossings_from
     seeds: Seeds = _all_over
     max_steps: int = _MOST_STEPS
-    ways: tuple[bool, ...] = (True,)
-    later: bool = False
-    whole: Callable[[], Window] | None = None
-    at_once: bool = True
-    alone: bool = True
+    directions: tuple[bool, ...] = (True,)
+    second_half_only: bool = False
+    default_window: Callable[[], Window] | None = None
+    is_immediate: bool = True
+    is_exclusive: bool = True
 
     @property
     def poincare(self) -> PoincareSection:
@@ -177,11 +177,13 @@ class Section(Part[_Host]):
     def frame(self) -> Window:
         """The visible window."""
         (x0, x1), (y0, y1) = self.poincare.window
-        return window_of(self.host.window, ((x0, y0), (x1, y1)) if self.whole is None else self.whole())
+        return window_of(
+            self.host.window, ((x0, y0), (x1, y1)) if self.default_window is None else self.default_window()
+        )
 
     def corrections(self, notes: list[str]) -> Values:
         """Return a valid window."""
-        return {"window": tidy_window(self.host.window)} if self.host.window else {}
+        return {"window": normalized_window(self.host.window)} if self.host.window else {}
 
     @property
     def starts(self) -> Sequence[Start]:
@@ -189,8 +191,8 @@ class Section(Part[_Host]):
         return (self.host.chosen_start,) if self.chosen is None else self.chosen()
 
     @cached_property
-    def aim(self) -> Point | None:
-        """The point where the current orbit starts in the section or first crosses it; None without one."""
+    def start_point(self) -> Point | None:
+        """The point of the current orbit's start in the section or of its first crossing; None without a crossing."""
         start = self.starts[-1]
         try:
             return _first_point(self.poincare, start, lambda: self.work.need(self.batch((start,))))
@@ -208,29 +210,31 @@ class Section(Part[_Host]):
         return Task(self.compute, self.poincare, starts, *how)
 
     def _other_tasks(self, crossings: int = 0, level: Level | None = None) -> list[Task[OrbitBatch]]:
-        return [self.batch(starts, way, crossings, level) for starts in self.seeds(self) for way in self.ways]
+        return [self.batch(starts, way, crossings, level) for starts in self.seeds(self) for way in self.directions]
 
     @property
     def _count(self) -> int:
         """The number of crossings of each orbit."""
         crossings = self.host.count
-        return int(min(crossings, _FEW)) if self.work.dragging else self.work.plan(Kind.SECTION).part(crossings, _LEAST)
+        return (
+            int(min(crossings, _FEW)) if self.work.is_preview else self.work.plan(Kind.SECTION).part(crossings, _LEAST)
+        )
 
     @cached_property
     def known_orbits(self) -> KnownOrbits:
         """The known orbits."""
         states = self.starts if self.host.periodic_orbit.closed_orbit is None else self.starts[:-1]
-        held = self.work.dragging
+        held = self.work.is_preview
         try:
             own = [self.batch((state,)) for state in states]
             others = self._other_tasks()
             known = KnownOrbits(
-                [self.work.need(task, preview=task if held or self.at_once else None) for task in own],
+                [self.work.need(task, preview=task if held or self.is_immediate else None) for task in own],
                 [self.work.need(task, preview=task if held else None) for task in others],
             )
-            if self.at_once and None in known.others:
+            if self.is_immediate and None in known.others:
                 few = [self.work.need(task) for task in self._other_tasks(min(self._count, _FEW))]
-                known = replace(known, few=few)
+                known = replace(known, preview_batches=few)
         except WorkLimit:
             much = f"{self._count} crossings take an orbit more than {self.max_steps} steps here"
             return KnownOrbits([], [], reason=f"The section is omitted: {much}: choose fewer crossings.")
@@ -248,13 +252,13 @@ class Section(Part[_Host]):
         """The drawn points (n, 2) of each chosen orbit; no points for an orbit that is not known yet."""
         return [
             concatenate(map(self._visible_part, () if batch is None else batch.orbits))
-            for batch in self.known_orbits.own
+            for batch in self.known_orbits.own_batches
         ]
 
-    def _visible_part(self, orbit: Array, later: bool = False) -> Array:
-        return orbit[len(orbit) // 2 :] if self.later or later else orbit
+    def _visible_part(self, orbit: Array, second_half_only: bool = False) -> Array:
+        return orbit[len(orbit) // 2 :] if self.second_half_only or second_half_only else orbit
 
-    def points(self, first: bool = True, ends: bool = False, later: bool = False) -> Array:
+    def points(self, first: bool = True, ends: bool = False, second_half_only: bool = False) -> Array:
         """Return the drawn points (n, 2) of the other orbits of one kind.
 
         Parameters
@@ -263,17 +267,17 @@ class Section(Part[_Host]):
             True for the first of two kinds.
         ends : bool
             True for orbits that end early, False for all others.
-        later : bool
+        second_half_only : bool
             True for only the second half of the crossings, even if all are drawn.
         """
-        if (first, ends, later) not in self._points:
-            self._points[first, ends, later] = concatenate(
-                self._visible_part(orbit, later)
+        if (first, ends, second_half_only) not in self._points:
+            self._points[first, ends, second_half_only] = concatenate(
+                self._visible_part(orbit, second_half_only)
                 for batch in self.known_orbits.batches
-                for orbit, is_first, reason in zip(batch.orbits, batch.firsts, batch.reasons, strict=True)
+                for orbit, is_first, reason in zip(batch.orbits, batch.first_kind, batch.reasons, strict=True)
                 if (is_first, reason != "") == (first, ends)
             )
-        return self._points[first, ends, later]
+        return self._points[first, ends, second_half_only]
 
     @cached_property
     def _points(self) -> dict[tuple[bool, bool, bool], Array]:
@@ -287,18 +291,18 @@ class Section(Part[_Host]):
 
     @cached_property
     def _right(self) -> tuple[int, int | None] | None:
-        """The last crossing right to half a pixel, of the current orbit, and the median of some others, if any.
+        """The number of crossings accurate to half a pixel, of the current orbit and in the median of some others.
 
         This compares with a second run at a hundredth of the tolerance; None until known, and during a drag.
         """
-        periodic, own = self.host.periodic_orbit, self.known_orbits.own
-        if self.work.dragging or periodic.is_searching or periodic.closed_orbit is not None or not own:
+        periodic, own = self.host.periodic_orbit, self.known_orbits.own_batches
+        if self.work.is_preview or periodic.is_searching or periodic.closed_orbit is not None or not own:
             return None
-        level, step = self.work.plan(Kind.SECTION).level.tighter(), len(self.ways)
+        level, step = self.work.plan(Kind.SECTION).level.tighter(), len(self.directions)
         tasks = [self.batch((self.starts[-1],), level=level), *self._other_tasks(level=level)[::step][:_TRIALS]]
         fine: list[OrbitBatch | None] = [self.work.need(task, preview=None) for task in tasks]
         counts = [
-            right_crossings(one.orbits, other.orbits, pixels_in(self.frame), self.poincare.turns)
+            count_correct_crossings(one.orbits, other.orbits, pixels_in(self.frame), self.poincare.turns)
             for one, other in zip([own[-1], *self.known_orbits.others[::step]], fine, strict=False)
             if one is not None and other is not None
         ]
@@ -306,7 +310,7 @@ class Section(Part[_Host]):
             return None
         return counts[0][0], lower_median([count for each in counts[1:] for count in each])
 
-    # ---- words --------------------------------------------------------------------------------------------------
+    # ---- texts --------------------------------------------------------------------------------------------------
 
     def status(self) -> Iterator[str]:
         """Yield the size, cost and drift of the section, and the accuracy of the current orbit."""
@@ -340,7 +344,7 @@ def section_caption(section: Section) -> Caption:
 
 
 def _first_point(section: PoincareSection, state: Start, crossed: Callable[[], OrbitBatch]) -> Point | None:
-    """Return the point of a state in the section, or of its first crossing; None without one."""
+    """Return the point of a state in the section, or of its first crossing; None without a crossing."""
     start = np.array([state])
     point = section.points_of(start)
     states, there = section.states_at(*point.T)

@@ -68,7 +68,7 @@ class SectionState(State, ABC):
 
     section = part(Section)
     density = part(lambda s: SectionDensity(s.section, s.shows_density))
-    megno = part(lambda s: Indicator(s.section, s.indicator == MEGNO and s.section.alone))
+    megno = part(lambda s: Indicator(s.section, s.indicator == MEGNO and s.section.is_exclusive))
     periodic_orbit = part(lambda s: SectionPeriodicOrbit(s.section, s.periodic, s.reach))
     orbit = part(BodyOrbit)
     proof = part(lambda s: OrbitProof(s.orbit, s.certain))
@@ -76,7 +76,7 @@ class SectionState(State, ABC):
     @property
     def shows_density(self) -> bool:
         """True if the density is shown."""
-        return self.indicator == DENSITY and self.section.alone
+        return self.indicator == DENSITY and self.section.is_exclusive
 
     @property
     def closed_orbit(self) -> ClosedOrbit | None:
@@ -114,7 +114,7 @@ class SectionState(State, ABC):
 
 @dataclass(frozen=True)
 class FilledState(SectionState):
-    """A state with a section whose window is filled with orbits; clicks start further ones."""
+    """A state with a section whose window is filled with orbits; clicks start further orbits."""
 
     orbits: float = orbits_spread(40.0, 120.0, 300.0)
     count: float = points_of_each(200.0)

@@ -16,13 +16,13 @@ from typing import Any
 import numpy as np
 
 from hess_mechanics.numerics.jit import part
-from hess_mechanics.numerics.pairs_kernels import DOUBLED_FUNCTIONS, add, divide, multiply, subtract
+from hess_mechanics.numerics.pairs_kernels import DOUBLE_DOUBLE_FUNCTIONS, add, divide, multiply, subtract
 from hess_mechanics.numerics.recursions import Recursion
 from hess_mechanics.numerics.step_kernels import last_terms, step_size
 from hess_mechanics.numerics.taylor_kernels import STEP_LIMIT_REACHED
 from hess_mechanics.numerics.unrolled import compile_source, items
 
-__all__ = ["ORDER", "TOLERANCE", "doubled_integrator"]
+__all__ = ["ORDER", "TOLERANCE", "double_double_integrator"]
 
 ORDER, TOLERANCE = 36, 1e-31
 """Order of the Taylor series, and tolerance in units in which the state is O(1)."""
@@ -59,9 +59,9 @@ def _expansion(recursion: Recursion) -> Callable[..., Any]:
     steps[k] = unit of time/(k+1).  Auxiliary series that are still unknown are 0, so that products omit their terms.
     """
     tree = ast.fix_missing_locations(_Doubled().visit(ast.parse(recursion.source)))
-    functions = compile_source(compile(tree, "<doubled>", "exec"), **_NAMES, **DOUBLED_FUNCTIONS)
-    n, known, pairs = recursion.variables, recursion.known, recursion.pairs
-    moving = recursion.moving
+    functions = compile_source(compile(tree, "<double_double>", "exec"), **_NAMES, **DOUBLE_DOUBLE_FUNCTIONS)
+    n, known, pairs = recursion.variables, recursion.stage_starts, recursion.pairs
+    moving = recursion.dimension
     y, q = items(f"c[k, {i}]" for i in range(known[-1])), items(f"q[{j}]" for j in range(len(pairs)))
     stages = "".join(
         f"""
@@ -76,7 +76,7 @@ def _expansion(recursion: Recursion) -> Callable[..., Any]:
     def inside(c, k, inner):
         for j in range(left.size):
             inner[j] = 0.0
-        # Products of inner orders: the sums are independent of each other.
+        # Add the products of inner orders with the loop over j inside, because its sums are independent of each other.
         for m in range(1, k):
             for j in range(left.size):
                 inner[j] = add(inner[j], multiply(c[m, left[j]], c[k - m, right[j]]))
@@ -110,7 +110,7 @@ def expand(c, p, steps, inner, q):
     )["expand"]
 
 
-def doubled_integrator(recursion: Recursion) -> Callable[..., Any]:
+def double_double_integrator(recursion: Recursion) -> Callable[..., Any]:
     """Return the compiled solver of ẏ = f(y, p) with 31 digits.
 
     integrate(state, start, parameters, scale, unit, times, max_steps, out) starts from the state (d,) at the time
@@ -124,7 +124,7 @@ def doubled_integrator(recursion: Recursion) -> Callable[..., Any]:
 def packed(parameters):
     return ({items(f"parameters[{i}]" for i in range(parameters_count))})
 """)["packed"]
-    series = recursion.known[-1]
+    series = recursion.stage_starts[-1]
     products = len(recursion.pairs)
 
     @part

@@ -11,9 +11,9 @@ import pytest
 
 import oracle
 from hess_mechanics import solve, systems
-from hess_mechanics.dynamics.doubled import double_double_orbit
+from hess_mechanics.dynamics.double_double import double_double_orbit
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from hess_mechanics.numerics.pairs_kernels import DOUBLED_FUNCTIONS
+from hess_mechanics.numerics.pairs_kernels import DOUBLE_DOUBLE_FUNCTIONS
 from support.thorough import sample
 
 SYSTEMS = systems()
@@ -66,7 +66,7 @@ def test_many_times_are_those_of_one_orbit():
 
 
 def test_what_cannot_be_followed_is_refused(monkeypatch):
-    monkeypatch.setattr(sys.modules["hess_mechanics.dynamics.doubled"], "_MOST_STEPS", 1000)
+    monkeypatch.setattr(sys.modules["hess_mechanics.dynamics.double_double"], "_MOST_STEPS", 1000)
     system = SYSTEMS["suslov"]
     with pytest.raises(WorkLimit, match="choose a shorter time span"):
         double_double_orbit(*system.example_motion, [1e6])
@@ -74,7 +74,7 @@ def test_what_cannot_be_followed_is_refused(monkeypatch):
         double_double_orbit(system.at(), (np.nan,) * 5, [1.0])
 
 
-@pytest.mark.parametrize("name", sample(DOUBLED_FUNCTIONS, 3))
+@pytest.mark.parametrize("name", sample(DOUBLE_DOUBLE_FUNCTIONS, 3))
 def test_functions_of_pairs_have_31_digits(name):
     draw = np.random.default_rng(5)
     for _ in range(20):
@@ -82,7 +82,7 @@ def test_functions_of_pairs_have_31_digits(name):
         pairs = [complex(x, x * draw.uniform(-1e-17, 1e-17))]
         if name in ("atan2", "pow"):
             pairs.append(complex(draw.normal(), 0.0))
-        found = DOUBLED_FUNCTIONS[name](*pairs)
+        found = DOUBLE_DOUBLE_FUNCTIONS[name](*pairs)
         with mpmath.workdps(40):
             exact = getattr(mpmath, name.replace("pow", "power"))(*(mpmath.mpf(z.real) + z.imag for z in pairs))
             off = abs(mpmath.mpf(found.real) + found.imag - exact) / max(1, abs(exact))

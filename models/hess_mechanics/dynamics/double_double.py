@@ -11,7 +11,7 @@ import numpy as np
 from hess_mechanics.dynamics.orbit import as_times, require_finite_states, require_steps
 from hess_mechanics.dynamics.system import Body, Problem
 from hess_mechanics.numerics.patience import check_limit
-from hess_mechanics.numerics.results import Array, Complex, frozen
+from hess_mechanics.numerics.results import Array, Complex, as_read_only
 
 __all__ = ["DoubleDoubleOrbit", "double_double_orbit"]
 
@@ -41,7 +41,7 @@ class DoubleDoubleOrbit:
     @property
     def states(self) -> Array:
         """The states, rounded to doubles, shape (n, d)."""
-        return frozen(self.pairs.real.copy())
+        return as_read_only(self.pairs.real.copy())
 
     def errors_of(self, states: Array) -> Array:
         """Return the errors of computed states, without rounding the truth first.
@@ -64,8 +64,8 @@ def double_double_orbit(
 ) -> DoubleDoubleOrbit:
     """Return an orbit in double-double arithmetic, with 31 digits.
 
-    The integrator is a Taylor series of order 36 in pairs of doubles (`numerics.doubled_kernels`), about 40 µs per
-    step.  State and parameters are rescaled only by powers of two, which is exact.
+    The integrator is a Taylor series of order 36 in pairs of doubles (`numerics.double_double_kernels`), about 40 µs
+    per step.  State and parameters are rescaled only by powers of two, which is exact.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def double_double_orbit(
     Examples
     --------
     >>> from hess_mechanics import level, solve, systems
-    >>> from hess_mechanics.dynamics.doubled import double_double_orbit
+    >>> from hess_mechanics.dynamics.double_double import double_double_orbit
     >>> suslov = systems()["suslov"]
     >>> orbit = solve(*suslov.example_motion, [0.0, 1.0, 2.0], level("precise"))
     >>> truth = double_double_orbit(*suslov.example_motion, orbit.times)
@@ -107,10 +107,10 @@ def double_double_orbit(
     for first in range(0, t.size, _AT_ONCE):
         check_limit()
         part = slice(first, first + _AT_ONCE)
-        steps = body.system.doubled(here, begun, p, problem.scale, unit, t[part], left, out[part])
+        steps = body.system.double_double(here, begun, p, problem.scale, unit, t[part], left, out[part])
         require_steps(
             steps, f"With 31 digits this motion needs more than {_MOST_STEPS} steps: choose a shorter time span."
         )
         require_finite_states(out[part].real)
         here, begun, left = out[part][-1].copy(), float(t[part][-1]), left - steps
-    return DoubleDoubleOrbit(frozen(t), frozen(out), frozen(problem.scale))
+    return DoubleDoubleOrbit(as_read_only(t), as_read_only(out), as_read_only(problem.scale))
