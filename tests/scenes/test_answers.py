@@ -29,7 +29,7 @@ SHOWN = {
         "Pendulum": "Two loops",
         "Oscillation": "No loop",
         "Separatrix": "On the separatrix",
-        "On the bifurcation": "At this edge",
+        "On the bifurcation": "On this edge",
     },
     "free-suslov": {"γ₁(t)": "No friction", "Γ(t), k = 1:": "A complete reversal", "Γ(t), k = 1.5": "No friction"},
     "suslov": {"A chaotic": "Each dot", "Two attractors": "Each colour", "On a principal": "On a principal axis"},
@@ -40,7 +40,7 @@ SHOWN = {
         "Near the asymptotic orbit": "Nearly every",
     },
     "rotation-number": {"One plateau": "Not locked", "Euler": "Locked"},
-    "ball-section": {"Returning orbits": "Here a symmetry", "Mixed": "Each dot"},
+    "ball-section": {"Returning orbits": "A symmetry makes", "Mixed": "Each dot"},
     "euler-poisson": {"Two layers": "In the Hess case", "The barrier": "Each dot"},
     "loxodrome": {"High": "The body turns", "Low": "Gravity swings", "Separatrix": "The body climbs"},
 }
@@ -93,5 +93,5 @@ def test_reversal_is_complete_where_it_says_so_and_nowhere_else(k):
 
 
 def test_orbits_of_a_ball_close_by_symmetry_only_on_a_principal_axis():
-    assert said("ball-section", {"b3": 0.0}).startswith("Here a symmetry")
+    assert said("ball-section", {"b3": 0.0}).startswith("A symmetry makes")
     assert said("ball-section", {"b3": 0.0, "I13": 0.2}).startswith("Each dot")

@@ -80,7 +80,7 @@ def test_a_constant_of_the_motion_is_taken_for_the_whole_step():
 
 REFUSED = {
     "complex": (lambda y, p: (y[0] * 1j, y[1]), r"cannot be traced: .*Use \+, −, \*, /"),
-    "division by 0": (lambda y, p: (y[0] / 0, y[1]), "cannot be traced: .*divides by 0"),
+    "division by 0": (lambda y, p: (y[0] / 0, y[1]), "cannot be traced: .*divides by the number 0"),
     "text": (lambda y, p: (y[0] / (p[0] - p[0] * 1 + y[0] * 0), "y"), "cannot be traced: "),
     "missing variable": (lambda y, p: (y[0], y[5]), "reads beyond its 2 variables.*count the indices from 0"),
     "three rates": (lambda y, p: (y[0],) * 3, "2 variables and returns 3 rates: return one for each"),
