@@ -1,6 +1,6 @@
 // @ts-check
 // Two states side by side, each in an embedded page with its own controls; both show the
-// same moment in the same axes, and bodies and spheres turn together.  Messages go only to pages of the same origin.
+// same moment in the same axes, and bodies and spheres turn together.  They talk on a channel of their own, which has their name.
 //
 // Each half is a page, not a second drawing in this page, so pictures, player and requests exist once per page.
 
@@ -19,15 +19,15 @@ const HEARD = { time: "follow", turned: "turn", axes: "axes-beside" }
 
 /** Link this page to the other one, if it is one of two pages side by side. */
 export function joinOther() {
-  if (window.name !== HALF || window.parent === window) return
+  if (!window.name.startsWith(HALF)) return
+  const other = new BroadcastChannel(window.name)
   // A change that follows the other page is not sent back.
   let isFollowing = false
   /** @type {PageEvents["axes"] | null} */
   let axes = null
   let hasMet = false
-  const { origin } = location
   /** @param {string} name @param {unknown} detail */
-  const say = (name, detail) => { if (!isFollowing) window.parent.postMessage([name, detail], origin) }
+  const say = (name, detail) => { if (!isFollowing) other.postMessage([name, detail]) }
   listen({
     time: ({ t }) => say("time", t),
     turned: (turned) => say("turned", turned),
@@ -36,13 +36,12 @@ export function joinOther() {
       say("axes", found)
     },
   })
-  window.addEventListener("message", ({ source, origin: from, data }) => {
-    if (source !== window.parent || from !== origin || !Array.isArray(data) || !Object.hasOwn(HEARD, data[0])) return
+  other.addEventListener("message", ({ data: [name, detail] }) => {
     // The page that stood first tells its axes again, once the other can hear them.
-    if (data[0] === "axes" && !hasMet && axes !== null) say("axes", axes)
-    hasMet ||= data[0] === "axes"
+    if (name === "axes" && !hasMet && axes !== null) say("axes", axes)
+    hasMet ||= name === "axes"
     isFollowing = true
-    tell(HEARD[data[0]], data[1])
+    tell(HEARD[name], detail)
     isFollowing = false
   })
 }
@@ -66,14 +65,11 @@ function addressOf(query) {
 
 /** Return the dialog and the function that opens it with two states. */
 export function besideDialog() {
-  const halves = ["A, pinned", "B"].map((title) => element("iframe.half", { title, name: HALF }))
+  const name = HALF + crypto.getRandomValues(new Uint32Array(2)).join("-")
+  const halves = ["A, pinned", "B"].map((title) => element("iframe.half", { title, name }))
   const dialog = dialogOf("Side by side", "beside", [],
     element("div.halves", ...halves.map((half) => section(half.title, half.title, half))))
   dialog.addEventListener("close", () => { for (const half of halves) half.src = "about:blank" })
-  window.addEventListener("message", ({ source, origin, data }) => {
-    if (origin !== location.origin || !halves.some(({ contentWindow }) => contentWindow === source)) return
-    for (const { contentWindow } of halves) if (contentWindow !== source) contentWindow.postMessage(data, origin)
-  })
   return {
     dialog,
     /** @param {[string, string]} queries */

@@ -8,7 +8,7 @@ import { dialogOf } from "./dialog.js"
 
 /** Return the dialog and the function that opens it, and with it the room. */
 export function inviteDialog() {
-  const code = element("div.code", { role: "img", ariaLabel: "QR code of the address" })
+  const { code, draw } = qrCode("QR code of the address")
   const scan = element("p", { hidden: true }, "Scan the code, or open")
   const address = element("p.room-address")
   const count = element("p.room-count", { role: "status" })
@@ -22,24 +22,21 @@ export function inviteDialog() {
   let drawn = ""
 
   /** @param {string} link */
-  async function draw(link) {
+  async function show(link) {
     if (link === drawn) return
     drawn = link
     const [, host, path] = /^https?:\/\/(.*)(\/r\/.*)$/.exec(link) ?? ["", "", ""]
     unreachable.hidden = !/^(localhost|127\.|\[::1\])/.test(host)
     address.replaceChildren(host, element("wbr"), element("span", path))
-    code.replaceChildren()
-    if (link === "") return
-    const { svg, said } = await qrCode(link)
-    code.innerHTML = svg
-    if (said !== "") count.textContent = said
+    const why = await draw(link)
+    if (why !== "") count.textContent = why
   }
 
   listen({
     room({ code: name, address: link, followers, said }) {
       scan.hidden = end.hidden = name === null
       count.textContent = name === null ? said : `${followers} follower${followers === 1 ? "" : "s"}`
-      draw(link)
+      show(link)
     },
   })
   return {

@@ -1,17 +1,27 @@
 // @ts-check
 // The QR code of a link, drawn by the server.
 
+import { element } from "../base/elements.js"
+
 /**
- * Return the QR code of a link as SVG, or the message that explains why there is none.
- * @param {string} link
- * @returns {Promise<{svg: string, said: string}>}
+ * Return an image of a QR code, and the function that draws the code of a link in it and returns why there is none, or "".
+ * @param {string} ariaLabel
  */
-export async function qrCode(link) {
-  try {
-    const response = await fetch(new URL(`qr.svg?text=${encodeURIComponent(link)}`, document.baseURI))
-    const text = await response.text()
-    return response.ok ? { svg: text, said: "" } : { svg: "", said: text }
-  } catch {
-    return { svg: "", said: "The server does not answer: no QR code." }
+export function qrCode(ariaLabel) {
+  const code = element("div.code", { role: "img", ariaLabel })
+  /** @param {string} link "" for none */
+  async function draw(link) {
+    code.replaceChildren()
+    if (link === "") return ""
+    try {
+      const response = await fetch(new URL(`qr.svg?text=${encodeURIComponent(link)}`, document.baseURI))
+      const text = await response.text()
+      if (!response.ok) return text
+      code.innerHTML = text
+      return ""
+    } catch {
+      return "The server does not answer: no QR code."
+    }
   }
+  return { code, draw }
 }

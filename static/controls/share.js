@@ -29,7 +29,7 @@ export function shareDialog() {
   const link = element("input.address", {
     type: "text", readOnly: true, ariaLabel: "Link", onfocus: () => link.select(),
   })
-  const code = element("div.code", { role: "img", ariaLabel: "QR code of the link" })
+  const { code, draw } = qrCode("QR code of the link")
   const why = element("p.why", { role: "status" })
   const html = snippet("HTML to embed", 4)
   const write = () => {
@@ -59,13 +59,10 @@ export function shareDialog() {
       pictures.put(gallery.shown.cells.map((cell) => [nameOf(cell), labelOf(cell), !isFolded(cell)]))
       controls.put(scene.controls.map(({ name, label }) => [name, label, scene.essential.includes(name)]))
       write()
-      code.replaceChildren()
       why.textContent = ""
       dialog.showModal()
-      const { svg, said } = await qrCode(link.value)
-      code.innerHTML = svg
-      code.hidden = svg === ""
-      why.textContent = said
+      why.textContent = await draw(link.value)
+      code.hidden = why.textContent !== ""
     },
   }
 }

@@ -17,7 +17,7 @@
 import {
   drawArrow, drawBall, drawLine, drawMass, drawShadow, drawTrail, drawWheel, TRAIL, turnsOf, WHEEL,
 } from "./body_parts.js"
-import { circlePath, LOOKS } from "./looks.js"
+import { circlePath, drawDisc, LOOKS } from "./looks.js"
 import { between } from "./moment.js"
 import { covers, createSolid, leaves } from "./solid.js"
 import { circle, cross, dot, plus, scaled, unit } from "./vectors.js"
@@ -199,9 +199,7 @@ export function bodyIn(source, attitude) {
         ctx.stroke()
         ctx.globalAlpha = 1
         drawBall(ctx, ...at([0, 0, INNER - CAVITY]), dark ? "#8A8F98" : "#9AA0AA", INNER * scale, text, 0.45)
-        circlePath(ctx, ...at([0, 0, -CAVITY]), 3.5)
-        ctx.fillStyle = text
-        ctx.fill()
+        drawDisc(ctx, ...at([0, 0, -CAVITY]), 3.5, text)
       }
       solid.paint(sheet, held.seen, semi, Boolean(hollow))
     },

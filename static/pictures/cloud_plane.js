@@ -10,7 +10,7 @@ import { written } from "../base/numbers.js"
 import { zoom } from "../base/presenting.js"
 import { squareCanvas } from "./canvas.js"
 import { cloudsOf } from "./cloud.js"
-import { drawMark, LOOKS, useLook } from "./looks.js"
+import { drawMark, linePath, LOOKS, useLook } from "./looks.js"
 import { pointLayer } from "./point_layer.js"
 import { connectZoom, zoomed } from "./zoom.js"
 
@@ -157,8 +157,7 @@ export function cloudPlane(el, options, source, isShown) {
     ctx.clip()
     for (const [look, xs, ys] of curves) {
       useLook(ctx, LOOKS[look], text)
-      ctx.beginPath()
-      for (let i = 0; i < xs.length; i++) ctx.lineTo(x(xs[i]), y(ys[i]))
+      linePath(ctx, Array.from(xs, (/** @type {number} */ a, i) => [x(a), y(ys[i])]))
       ctx.stroke()
     }
     for (const [look, a, b] of points) drawMark(ctx, x(a), y(b), look, text)

@@ -6,6 +6,7 @@ import { sayDragMe } from "../base/handle.js"
 import { element } from "../base/elements.js"
 import { zoom } from "../base/presenting.js"
 import { cloudPlane } from "./cloud_plane.js"
+import { toPixels } from "./frame.js"
 import { planeGhost } from "./ghost.js"
 import { ink, inks, setShades } from "./looks.js"
 import { createCell, fillCaption, fillHover, isFolded, isInSight, nameOf } from "./picture.js"
@@ -150,12 +151,13 @@ function besideLayer({ picture, source, columns }) {
   const point = columns?.map((column) => gallery.source(source).data[column]?.[0])
   const cell = gallery.cell(picture)
   if (point?.[0] === undefined || !isInSight(cell)) return null
-  const { frame, repainted: moved } = gallery.plot(picture)
+  const plot = gallery.plot(picture)
   return {
-    host: cell.querySelector(".host"), moved,
-    place: () => ({
-      left: `calc(${frame.x_scale.compute(point[0])}px + 1.2em)`, top: `${frame.y_scale.compute(point[1])}px`,
-    }),
+    host: cell.querySelector(".host"), moved: plot.repainted,
+    place() {
+      const [left, top] = toPixels(plot, point)
+      return { left: `calc(${left}px + 1.2em)`, top: `${top}px` }
+    },
   }
 }
 

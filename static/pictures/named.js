@@ -3,9 +3,10 @@
 // with the picture if it does not lead.
 
 import { tell } from "../base/bus.js"
+import { clipTo } from "./frame.js"
 import { gallery } from "./gallery.js"
 import { linesOf, overlay } from "./guess.js"
-import { circlePath } from "./looks.js"
+import { circlePath, linePath } from "./looks.js"
 
 const [GLOW, WIDTH, RING] = ["rgba(230, 159, 0, 0.5)", 16, 12]
 
@@ -31,16 +32,11 @@ export function lightNames(el) {
     dim()
     const { glyph: { type, x, y, xs = x, ys = y }, data_source: { name: source } } = renderer
     over = overlay(plot, "glow", { ariaHidden: true }, "pointer-events: none", (ctx) => {
-      const { x0, y0, x1, y1 } = plot.frame.bbox
-      ctx.rect(x0, y0, x1 - x0, y1 - y0)
-      ctx.clip()
+      clipTo(ctx, plot.frame.bbox)
       for (const line of linesOf({ source, columns: [xs.field, ys.field], what: type === "Scatter" ? "point" : "curve" })) {
         const points = line.map(over.toPixels)
         if (points.length === 1) circlePath(ctx, ...points[0], RING)
-        else {
-          ctx.beginPath()
-          for (const point of points) ctx.lineTo(...point)
-        }
+        else linePath(ctx, points)
         ctx.lineWidth = WIDTH
         ctx.strokeStyle = GLOW
         ctx.stroke()

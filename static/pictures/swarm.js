@@ -7,7 +7,7 @@
 // drawn; shortly before, it fades.  See "scenes/framework/swarm.py".
 
 import { listen } from "../base/bus.js"
-import { circlePath, shade } from "./looks.js"
+import { drawDisc, shade } from "./looks.js"
 
 const FIRST = 32767
 const TURN = 2 * Math.PI
@@ -122,9 +122,7 @@ export function drawBeads(ctx, source, names, pointOf) {
     if (opacity === 0) continue
     const [x, y, isNear = true] = pointOf(columns, i)
     ctx.globalAlpha = (isNear ? 1 : 0.35) * opacity
-    ctx.fillStyle = palette[Math.floor(i * palette.length / count)]
-    circlePath(ctx, x, y, radius)
-    ctx.fill()
+    drawDisc(ctx, x, y, radius, palette[Math.floor(i * palette.length / count)])
     if (radius > 2) ctx.stroke()
   }
   ctx.restore()
