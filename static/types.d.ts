@@ -331,7 +331,6 @@ type Sheet = ReturnType<typeof import("./pictures/projection.js").createSheet>
 
 /** A drawing on a sphere; begin, paint (far, then near half) and middle (between them) are called in this order. */
 interface SphereGuest {
-  t: number
   begin?(sheet: Sheet): void
   paint(sheet: Sheet, near: boolean): void
   middle?(sheet: Sheet): void
@@ -442,7 +441,6 @@ interface PageEvents {
   /** How many steps can be undone and redone. */
   steps: { undo: number, redo: number }
   presenting: boolean
-  embedding: void
   "lesson-read": { lesson: Lesson, step: number | null }
   compared: Compared | null
   // From the player

@@ -2,7 +2,7 @@
 // Present mode for lecture halls: larger type, lines and canvases (`zoom`, "shell.css"), and pictures that fill the window.
 
 import { listen, tell } from "./bus.js"
-import { isEmbedded } from "./embedding.js"
+import { isEmbedded } from "./windows.js"
 
 const LARGER = 2
 // Edge of a picture whose lines, dots and labels have their usual size, in pixels; those of smaller pictures are smaller.
@@ -28,19 +28,14 @@ export function zoom(edge) {
 }
 
 /**
- * Keep the classes `presenting` and `embedded` of an element up to date.
+ * Give an element the classes `presenting` and `embedded`.
  * @param {HTMLElement} el
  */
 export function wear(el) {
-  const follow = () => {
-    el.classList.toggle("presenting", isOn)
-    el.classList.toggle("embedded", isEmbedded())
-  }
-  listen({
-    presenting: follow,
-    embedding: follow,
-  })
+  const follow = () => { el.classList.toggle("presenting", isOn) }
+  listen({ presenting: follow })
   follow()
+  el.classList.toggle("embedded", isEmbedded)
 }
 
 /**

@@ -1,9 +1,10 @@
 // @ts-check
 // Media queries, the same as in the style sheets.  A page embedded in another one is a part, for which a smaller frame is enough.
 
-const isPart = new URLSearchParams(location.search).get("embed") === "1"
+/** Whether the page is embedded in another one (embed=1). */
+export const isEmbedded = new URLSearchParams(location.search).get("embed") === "1"
 // The width and the height below which a page looks as on a phone; in the style sheets those of a whole page.
-const [WIDTH, HEIGHT] = isPart ? ["480px", "320px"] : ["800px", "500px"]
+const [WIDTH, HEIGHT] = isEmbedded ? ["480px", "320px"] : ["800px", "500px"]
 
 export const PHONE = matchMedia(`(width < ${WIDTH}), (height < ${HEIGHT})`)
 // Controls and text share a column as tabs.

@@ -6,7 +6,7 @@ import { listen, tell } from "../base/bus.js"
 import { qrCode } from "./qr.js"
 import { dialogOf } from "./dialog.js"
 
-/** Return the dialog and the function that opens it, and with it the room. */
+/** Return the dialog, which opens with the room. */
 export function inviteDialog() {
   const { code, draw } = qrCode("QR code of the address")
   const scan = element("p", { hidden: true }, "Scan the code, or open")
@@ -38,12 +38,10 @@ export function inviteDialog() {
       count.textContent = name === null ? said : `${followers} follower${followers === 1 ? "" : "s"}`
       show(link)
     },
-  })
-  return {
-    box: dialog,
-    open() {
+    invite() {
       tell("open-room")
       dialog.showModal()
     },
-  }
+  })
+  return dialog
 }

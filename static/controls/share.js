@@ -2,7 +2,7 @@
 // The dialog Share: the link, its QR code, and HTML that embeds parts of the page in another page.
 
 import { element } from "../base/elements.js"
-import { tell } from "../base/bus.js"
+import { listen, tell } from "../base/bus.js"
 import { linkTo } from "../base/embedding.js"
 import { qrCode } from "./qr.js"
 import { gallery } from "../pictures/gallery.js"
@@ -22,7 +22,7 @@ const heightOf = ({ pictures, controls }) => (
 /** @param {string} text */
 const escaped = (text) => text.replaceAll("&", "&amp;").replaceAll('"', "&quot;").replaceAll("<", "&lt;")
 
-/** Return the dialog and the functions that open it and set its scene. */
+/** Return the dialog. */
 export function shareDialog() {
   /** @type {SceneDescription | null} */
   let scene = null
@@ -49,11 +49,9 @@ export function shareDialog() {
     section("Link", "This state of the page", link, copyLink, code, why),
     section("Embed", "Parts of this page in a page of yours", pictures.frame, controls.frame, html, copyHtml)))
 
-  return {
-    box: dialog,
-    /** @param {SceneDescription} description */
-    show(description) { scene = description },
-    async open() {
+  listen({
+    enter(description) { scene = description },
+    async share() {
       tell("address")
       link.value = linkTo()
       pictures.put(gallery.shown.cells.map((cell) => [nameOf(cell), labelOf(cell), !isFolded(cell)]))
@@ -64,5 +62,6 @@ export function shareDialog() {
       why.textContent = await draw(link.value)
       code.hidden = why.textContent !== ""
     },
-  }
+  })
+  return dialog
 }

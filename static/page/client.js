@@ -9,17 +9,16 @@ import { gallery } from "../pictures/gallery.js"
 import { createAddress } from "./address.js"
 import { listen, tell } from "../base/bus.js"
 import { createCompare } from "./compare.js"
-import { embed, embedded } from "../base/embedding.js"
+import { embedded } from "../base/embedding.js"
 import { createHistory } from "./history.js"
 import { joinOther } from "../controls/beside.js"
 import { fill, paint, setAxes, shareAxes } from "./painting.js"
 import { present } from "../base/presenting.js"
-import { handlePrinting } from "./printing.js"
 import { createRequests } from "./requests.js"
 import { tabStore } from "../base/stores.js"
-import { setTheme } from "./theme.js"
+import { isEmbedded } from "../base/windows.js"
 import { createVisibility } from "./visibility.js"
-import { handleCommands } from "./commands.js"
+import { handleCommands, handlePrinting, setTheme } from "./commands.js"
 import { isFirstVisit } from "./lessons.js"
 
 // The next part of a state is requested after a pause as long as the last part took: half of the time is left to the user,
@@ -56,20 +55,18 @@ export function startClient(model, host) {
   root.dataset.ready = "false"
   root.dataset.state = "0"
   present(own.present === "1")
-  const isPart = own.embed === "1"
-  if (isPart) embed()
 
   // The tab keeps the undo history and the changes without an answer until the same link is opened again; those of each part
   // by themselves, without a history.
-  const key = isPart ? `page${location.search}` : "page"
+  const key = isEmbedded ? `page${location.search}` : "page"
   const kept = JSON.parse(tabStore.get(key) ?? "{}")
   const { steps, unanswered = null } = kept.href === location.href ? kept : {}
   window.addEventListener("pagehide", () => {
     const isBehind = requests.isBehind(state?.answers ?? 0)
     const left = {
-      href: location.href, steps: isPart ? undefined : history.steps, unanswered: isBehind ? requests.unanswered : undefined,
+      href: location.href, steps: isEmbedded ? undefined : history.steps, unanswered: isBehind ? requests.unanswered : undefined,
     }
-    tabStore.set(key, isPart && !isBehind ? null : JSON.stringify(left))
+    tabStore.set(key, isEmbedded && !isBehind ? null : JSON.stringify(left))
   })
 
   /** @type {ReturnType<Host["connect"]>} */
@@ -204,7 +201,7 @@ export function startClient(model, host) {
    * @param {ArrayBuffer} block
    */
   const onState = (next, described, block) => {
-    const description = described !== null && isPart ? embedded(described, own) : described
+    const description = described !== null && isEmbedded ? embedded(described, own) : described
     if (description !== null) descriptions.set(description.name, description)
     arriving = arriving.then(async () => {
       await build(descriptions.get(next.scene), () => sketch(next, block))

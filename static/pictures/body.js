@@ -18,7 +18,7 @@ import {
   drawArrow, drawBall, drawLine, drawMass, drawShadow, drawTrail, drawWheel, TRAIL, turnsOf, WHEEL,
 } from "./body_parts.js"
 import { circlePath, drawDisc, LOOKS } from "./looks.js"
-import { between } from "./moment.js"
+import { between, moment } from "./moment.js"
 import { covers, createSolid, leaves } from "./solid.js"
 import { circle, cross, dot, plus, scaled, unit } from "./vectors.js"
 
@@ -77,13 +77,12 @@ function drawSection({ use, stroke }, normal, radius, axes, semi) {
  */
 export function bodyIn(source, attitude) {
   const solid = createSolid()
-  let t = 0
 
   /** Return the body at the time t, placed once for both halves. @param {Sheet} sheet */
   function now({ view }) {
     const { t: times, ...columns } = attitude.data
     if (!(times?.length > 1)) return null
-    const [i, s] = between(times, t)
+    const [i, s] = between(times, moment.t)
     const place = placing(columns, i, s)
     const { axes = /** @type {Vector[]} */ ([]), semi = [], trail = [], wheels = [], arc = [] } = source.data
     const first = Math.max(0, i - TRAIL)
@@ -143,8 +142,6 @@ export function bodyIn(source, attitude) {
   /** @type {ReturnType<typeof now> | null} */
   let held = null
   return {
-    /** @param {number} value */
-    set t(value) { t = value },
     /** Place the body for all the painting that follows. @param {Sheet} sheet */
     begin(sheet) {
       held = now(sheet)

@@ -11,6 +11,7 @@ import { zoom } from "../base/presenting.js"
 import { squareCanvas } from "./canvas.js"
 import { cloudsOf } from "./cloud.js"
 import { drawMark, linePath, LOOKS, useLook } from "./looks.js"
+import { moment } from "./moment.js"
 import { pointLayer } from "./point_layer.js"
 import { connectZoom, zoomed } from "./zoom.js"
 
@@ -110,7 +111,6 @@ export function cloudPlane(el, options, source, isShown) {
   const own = source(options.name)
   const clouds = cloudsOf(own)
   const layer = pointLayer()
-  let t = 0
   // Kept while there are no clouds.
   /** @type {Axes} */
   let whole = [-1, 1, -1, 1]
@@ -162,21 +162,17 @@ export function cloudPlane(el, options, source, isShown) {
     }
     for (const [look, a, b] of points) drawMark(ctx, x(a), y(b), look, text)
     // Over the equilibria, where a whole cloud may end.
-    layer.draw(ctx, Math.round(edge * ratio), ratio, clouds.at(t), ({ count, w1, w2 }, add) => {
+    layer.draw(ctx, Math.round(edge * ratio), ratio, clouds.at(moment.t), ({ count, w1, w2 }, add) => {
       for (let i = 0; i < count; i++) add(ratio * x(w1[i]), ratio * y(w2[i]))
     })
   }
 
   const refresh = () => {
     request()
-    source(options.density).put(densityOf(clouds.at(t)[0], own.data.bins))
+    source(options.density).put(densityOf(clouds.at(moment.t)[0], own.data.bins))
   }
   listen({
-    time(now) {
-      if (!isShown()) return
-      t = now.t
-      refresh()
-    },
+    time() { if (isShown()) refresh() },
   })
   own.watch(refresh)
   return { shoot }

@@ -6,10 +6,9 @@
 
 import { button, element, icon, relabel } from "../base/elements.js"
 import { listen, tell } from "../base/bus.js"
-import { isEmbedded } from "../base/embedding.js"
 import { isTaken, onKeys } from "../base/keys.js"
 import { isPresenting, setType, zoom } from "../base/presenting.js"
-import { PHONE } from "../base/windows.js"
+import { isEmbedded, PHONE } from "../base/windows.js"
 import { arrange, onPhone } from "./arrange.js"
 import { isFolded, labelOf, nameOf } from "./picture.js"
 import { sizePlot } from "./plot_looks.js"
@@ -105,7 +104,7 @@ export function createStage(shelf, gallery) {
     const second = alone.length > 0 || shelf.clientHeight < LOW || leads.length + others.length < 2 ? [] : [leads[1] ?? others[0]]
     const seen = PHONE.matches ? [leads[0], ...second] : [...leads, ...others]
     const leading = PHONE.matches ? 1 : leads.length
-    const isAlone = isEmbedded() || isPresenting() || alone.length > 0 || scene.cells.length === 1
+    const isAlone = isEmbedded || isPresenting() || alone.length > 0 || scene.cells.length === 1
     const names = isAlone ? [] : scene.cells.filter(({ dataset }) => PHONE.matches || "label" in dataset)
     const { boxes, names: frame } = PHONE.matches ? onPhone(viewport(type), second.length, names.length)
       : arrange(viewport(type), leading, others.length, names.length)

@@ -6,8 +6,8 @@
 // shorter way round, and those of the kind "step" stay.  From the sample `until` on a motion is not known to half a pixel, and not
 // drawn; shortly before, it fades.  See "scenes/framework/swarm.py".
 
-import { listen } from "../base/bus.js"
 import { drawDisc, shade } from "./looks.js"
+import { moment } from "./moment.js"
 
 const FIRST = 32767
 const TURN = 2 * Math.PI
@@ -19,10 +19,6 @@ const SIZES = [[50, 5], [200, 4], [Infinity, 2]]
 
 /** Return an angle between −π and π. @param {number} angle */
 const wrapped = (angle) => angle - TURN * Math.round(angle / TURN)
-
-// The time of the player.
-let now = 0
-listen({ time({ t }) { now = t } })
 
 /** The motions of a swarm. */
 export class Swarm {
@@ -112,13 +108,13 @@ export function drawBeads(ctx, source, names, pointOf) {
   const swarm = swarmOf(source, names)
   if (swarm === null) return
   const { count, palette } = swarm.data
-  const columns = names.map((name) => swarm.at(name, now))
+  const columns = names.map((name) => swarm.at(name, moment.t))
   const [, radius] = SIZES.find(([most]) => count <= most)
   ctx.save()
   ctx.lineWidth = 0.7
   ctx.strokeStyle = shade("#101010")
   for (let i = 0; i < count; i++) {
-    const opacity = swarm.opacity(i, now)
+    const opacity = swarm.opacity(i, moment.t)
     if (opacity === 0) continue
     const [x, y, isNear = true] = pointOf(columns, i)
     ctx.globalAlpha = (isNear ? 1 : 0.35) * opacity

@@ -8,7 +8,7 @@
 import { drawPoint, drawTrail, TRAIL } from "./body_parts.js"
 import { FAINT } from "./ghost.js"
 import { LOOKS } from "./looks.js"
-import { between } from "./moment.js"
+import { between, moment } from "./moment.js"
 import { createRevolved, outline } from "./revolved.js"
 import { curvesOf } from "./sources.js"
 import { drawBeads } from "./swarm.js"
@@ -53,7 +53,6 @@ export function torus(el, options, source, isShown) {
   const [onScreen, inFiles] = [createRevolved(), createRevolved()]
   /** @param {Pick<Sheet, "isFine">} sheet */
   const surfaceOf = ({ isFine }) => (isFine ? inFiles : onScreen)
-  let t = 0
 
   const curves = () => curvesOf(options.curves, source, ["x", "y", "z"])
 
@@ -131,9 +130,9 @@ export function torus(el, options, source, isShown) {
     }
   }
 
-  /** Return the end of a curve before the time t. @param {Columns} curve @param {ArrayLike<number>} times @returns {number[][]} */
+  /** Return the end of a curve before the time of the player. @param {Columns} curve @param {ArrayLike<number>} times @returns {number[][]} */
   function until(curve, times) {
-    const [i, s] = between(times, t)
+    const [i, s] = between(times, moment.t)
     return curve.map((column) => {
       const path = Array.prototype.slice.call(column, Math.max(0, i - TRAIL), i + 1)
       return [...path, column[i] + s * (column[i + 1] - column[i])]
@@ -142,7 +141,7 @@ export function torus(el, options, source, isShown) {
 
   return turnable(el, "torus", {
     name: options.name, title: "The torus in space", what: "torus", isShown,
-    sources: [options.name, ...Object.keys(options.curves), "data-swarm"].map(source), hear(now) { t = now.t }, paint, paintMoving,
+    sources: [options.name, ...Object.keys(options.curves), "data-swarm"].map(source), paint, paintMoving,
     take: () => ({ radius: own.data.radius, height: own.data.height, list: curves() }),
     paintGhost(on, { radius, height, list }) {
       if (!(radius?.length > 2)) return
