@@ -4,7 +4,7 @@
 import { listen } from "./bus.js"
 import { element } from "./elements.js"
 import { browserStore } from "./stores.js"
-import { isEmbedded } from "./windows.js"
+import { isEmbedded } from "./modes.js"
 
 /** @type {(keyof PageEvents)[]} */
 const CHANGES = ["change", "expression", "preset", "reset", "clear", "pick", "restore", "step", "enter"]

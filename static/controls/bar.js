@@ -3,8 +3,7 @@
 
 import { listen, tell } from "../base/bus.js"
 import { button, element, icon } from "../base/elements.js"
-import { isPresenting } from "../base/presenting.js"
-import { PHONE } from "../base/windows.js"
+import { isPresenting, PHONE } from "../base/modes.js"
 
 /**
  * A tool, which tells its name.  without: why it is disabled when there is no such step; menu: the menu that holds it; asks: it opens a dialog, which needs

@@ -11,7 +11,7 @@ import { arrowOf, isTaken } from "../base/keys.js"
 import { within } from "../base/numbers.js"
 import { gallery } from "../pictures/gallery.js"
 import { stateAt } from "../pictures/moment.js"
-import { CALM, isEmbedded } from "../base/windows.js"
+import { CALM, isEmbedded } from "../base/modes.js"
 
 const SPEEDS = [0.25, 0.5, 1, 2, 4, 8]
 // Least duration of the first playing, in seconds.

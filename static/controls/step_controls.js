@@ -6,8 +6,7 @@ import { listen } from "../base/bus.js"
 import { element } from "../base/elements.js"
 import { arrowOf } from "../base/keys.js"
 import { written } from "../base/numbers.js"
-import { isPresenting } from "../base/presenting.js"
-import { isEmbedded, NARROW, PHONE } from "../base/windows.js"
+import { isEmbedded, isPresenting, NARROW, PHONE } from "../base/modes.js"
 import { control, followers } from "./control.js"
 
 const DIGITS = 4

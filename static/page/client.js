@@ -11,12 +11,11 @@ import { listen, tell } from "../base/bus.js"
 import { createCompare } from "./compare.js"
 import { embedded } from "../base/embedding.js"
 import { createHistory } from "./history.js"
-import { joinOther } from "../controls/beside.js"
+import { joinOther } from "../controls/comparison.js"
 import { fill, paint, setAxes, shareAxes } from "./painting.js"
-import { present } from "../base/presenting.js"
+import { isEmbedded, present } from "../base/modes.js"
 import { createRequests } from "./requests.js"
 import { tabStore } from "../base/stores.js"
-import { isEmbedded } from "../base/windows.js"
 import { createVisibility } from "./visibility.js"
 import { handleCommands, handlePrinting, setTheme } from "./commands.js"
 import { isFirstVisit } from "./lessons.js"
@@ -117,8 +116,6 @@ export function startClient(model, host) {
     fill(scene, tree, block)
     Object.assign(latest.texts, tree.texts)
     Object.assign(latest.controls, tree.controls)
-    tell("texts", tree.texts)
-    tell("captions", tree.captions)
     // Controls that were moved since the request keep their values.
     tell("controls", Object.fromEntries(
       Object.entries(tree.controls).filter(([name]) => !requests.hasMoved(name, answers))))

@@ -2,7 +2,7 @@
 // Commands that concern the page and not the state: address, theme, full screen, present mode, and the browser's print.
 
 import { listen, tell } from "../base/bus.js"
-import { isPresenting, present } from "../base/presenting.js"
+import { isPresenting, present } from "../base/modes.js"
 import { gallery } from "../pictures/gallery.js"
 import { onDark, setDark } from "../pictures/looks.js"
 

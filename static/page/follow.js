@@ -4,8 +4,7 @@
 
 import { render as renderPictures, gallery } from "../pictures/gallery.js"
 import { createGuess } from "../pictures/guess.js"
-import { lightNames } from "../pictures/named.js"
-import { createVeil } from "../pictures/veil.js"
+import { createVeil, lightNames } from "../pictures/layers.js"
 import { listen, tell } from "../base/bus.js"
 import { element } from "../base/elements.js"
 import { createMount } from "./mount.js"
@@ -116,8 +115,6 @@ function start() {
       for (const [source, data] of empty.get(state.scene)) {
         if (!(source in state.tree.sources)) scene.sources.get(source).put(data)
       }
-      tell("texts", state.tree.texts)
-      tell("captions", state.tree.captions)
     })
     tell("painted")
     heading.textContent = document.title = show.scene

@@ -7,15 +7,14 @@
 import { stepControls } from "../controls/step_controls.js"
 import { gallery } from "../pictures/gallery.js"
 import { createGuess } from "../pictures/guess.js"
-import { lightNames } from "../pictures/named.js"
-import { createVeil } from "../pictures/veil.js"
+import { createVeil, lightNames } from "../pictures/layers.js"
 import { createAnimation } from "./animation.js"
 import { listen, tell } from "../base/bus.js"
 import { onKeys } from "../base/keys.js"
 import { button, element, update } from "../base/elements.js"
 import { browserStore } from "../base/stores.js"
 import { within } from "../base/numbers.js"
-import { byHand, CALM, isEmbedded } from "../base/windows.js"
+import { byHand, CALM, isEmbedded } from "../base/modes.js"
 
 // One turn of a wheel is one step.
 const PAUSE = 700

@@ -5,7 +5,7 @@
 import { listen } from "../base/bus.js"
 import { element, update } from "../base/elements.js"
 import { browserStore } from "../base/stores.js"
-import { byHand } from "../base/windows.js"
+import { byHand } from "../base/modes.js"
 
 /** @type {[value: string, text: string][]} */
 const DEPTHS = [["idea", "Idea"], ["student", "What you see"], ["paper", "With equations"]]

@@ -3,11 +3,10 @@
 
 import { render as renderBar } from "../controls/bar.js"
 import { exportDialog } from "../controls/export.js"
-import { inviteDialog } from "../controls/invite.js"
 import { sceneMenu } from "../controls/scenes.js"
-import { shareDialog } from "../controls/share.js"
+import { inviteDialog, shareDialog } from "../controls/share.js"
 import { button, element, icon } from "../base/elements.js"
-import { isEmbedded } from "../base/windows.js"
+import { isEmbedded } from "../base/modes.js"
 import { createMount, FRAME, stylesOf } from "./mount.js"
 import { recording } from "./recording.js"
 import { createRoom } from "./room.js"

@@ -14,11 +14,10 @@ import { button, element, update } from "../base/elements.js"
 import { arrowOf, onKeys } from "../base/keys.js"
 import { render as renderLessons } from "./lessons.js"
 import { renderProgress, renderStatus, renderText } from "./lines.js"
-import { wear } from "../base/presenting.js"
+import { NARROW, PHONE, ROOMY, wear } from "../base/modes.js"
 import { drawer, spot } from "./present_tools.js"
 import { render as renderProse } from "./prose.js"
 import { browserStore } from "../base/stores.js"
-import { NARROW, PHONE, ROOMY } from "../base/windows.js"
 
 /** Return the tabs of the columns. @param {Record<string, HTMLElement>} columns label → column */
 function tabsOf(columns) {
@@ -57,7 +56,7 @@ function tabsOf(columns) {
   follow()
   listen({
     // The text of a lesson, at its start.
-    reading(on) { if (on) choose(tabs.find(([, column]) => column.id === "text")[0]) },
+    reading(on) { if (on) choose(tabs[1][0]) },
     // Pictures that are shown alone leave the columns as the page opens with them.
     alone(names) { if (names.length > 0) choose(tabs[0][0]) },
   })

@@ -4,7 +4,7 @@
 
 import { listen } from "../base/bus.js"
 import { element } from "../base/elements.js"
-import { zoom } from "../base/presenting.js"
+import { zoom } from "../base/modes.js"
 import { clipTo, covering } from "./frame.js"
 import { inks, onDark } from "./looks.js"
 import { largerOf } from "./plot_looks.js"

@@ -1,10 +1,14 @@
 // @ts-check
-// Clouds of phase points, moved between the frames that the server has sent.
+// Clouds of phase points, moved between the frames that the server has sent, and written into the pixels of a canvas: drawing each
+// point would take many times longer.
 //
 // For each cloud i the source holds `frames<i>`: numbers [frame][column][point] at evenly spaced `times`, with the columns
 // (x, y, γ1, γ2, γ3).  Without `signs<i>`, x and y are ω1 and ω2 of a motion with I13 = I23 = 0 in the field b3.  With
 // `signs<i>`, x is (ω, ξ) and y is ln|s|, where s = I13ω1 + I23ω2, there is no field, and `signs<i>` holds the signs of s.
 // `body` = [I11, I22, I13, I23, 𝒟, b3]; `sense` is 1, or −1 if time runs backward.
+
+import { element } from "../base/elements.js"
+import { cloudColour } from "./looks.js"
 
 class Cloud {
   /**
@@ -134,4 +138,59 @@ export function cloudsOf(source) {
   }
   allClouds.set(source, { at })
   return allClouds.get(source)
+}
+
+/**
+ * Return a layer that draws clouds of points as small translucent squares; where many overlap it is opaque.
+ */
+export function pointLayer() {
+  const sheet = element("canvas")
+  const paper = sheet.getContext("2d")
+  /** @type {ImageData | null} */
+  let pixels = null
+
+  /** @param {number} size @param {number[]} colour */
+  function begin(size, [red, green, blue]) {
+    if (sheet.width !== size || pixels === null) {
+      sheet.width = sheet.height = size
+      pixels = paper.createImageData(size, size)
+    }
+    // Little-endian pixels, alpha last.
+    new Uint32Array(pixels.data.buffer).fill((blue << 16) | (green << 8) | red)
+  }
+
+  return {
+    /**
+     * Draw clouds into a picture of `size` device pixels.
+     * @template {{count: number}} Points
+     * @param {CanvasRenderingContext2D} ctx
+     * @param {number} size
+     * @param {number} ratio device pixels per unit
+     * @param {Points[]} clouds
+     * @param {(cloud: Points, add: (x: number, y: number) => void) => void} points calls add(x, y) in device pixels for each point
+     */
+    draw(ctx, size, ratio, clouds, points) {
+      const side = Math.round(1.6 * ratio)
+      clouds.forEach((cloud, k) => {
+        begin(size, cloudColour(k))
+        const { data } = pixels
+        // Smaller clouds are darker.
+        const alpha = Math.max(110, Math.min(230, 1_100_000 / cloud.count))
+        points(cloud, (x, y) => {
+          const [left, top] = [Math.round(x - side / 2), Math.round(y - side / 2)]
+          if (!(left >= 0 && top >= 0 && left + side <= size && top + side <= size)) return
+          for (let row = 0; row < side; row++) {
+            const at = 4 * ((top + row) * size + left) + 3
+            for (let i = 0; i < side; i++) data[at + 4 * i] += alpha
+          }
+        })
+        paper.putImageData(pixels, 0, 0)
+        // Copy pixel by pixel, whatever the unit.
+        ctx.save()
+        ctx.setTransform(1, 0, 0, 1, 0, 0)
+        ctx.drawImage(sheet, 0, 0)
+        ctx.restore()
+      })
+    },
+  }
 }

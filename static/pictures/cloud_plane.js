@@ -7,12 +7,11 @@
 
 import { listen, tell } from "../base/bus.js"
 import { written } from "../base/numbers.js"
-import { zoom } from "../base/presenting.js"
+import { zoom } from "../base/modes.js"
 import { squareCanvas } from "./canvas.js"
-import { cloudsOf } from "./cloud.js"
+import { cloudsOf, pointLayer } from "./cloud.js"
 import { drawMark, linePath, LOOKS, useLook } from "./looks.js"
 import { moment } from "./moment.js"
-import { pointLayer } from "./point_layer.js"
 import { connectZoom, zoomed } from "./zoom.js"
 
 const MARGIN = { left: 46, right: 8, top: 8, bottom: 42 }

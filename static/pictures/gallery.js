@@ -4,7 +4,7 @@
 import { listen } from "../base/bus.js"
 import { sayDragMe } from "../base/handle.js"
 import { element } from "../base/elements.js"
-import { zoom } from "../base/presenting.js"
+import { zoom } from "../base/modes.js"
 import { cloudPlane } from "./cloud_plane.js"
 import { toPixels } from "./frame.js"
 import { planeGhost, shootPlot } from "./ghost.js"

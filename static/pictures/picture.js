@@ -2,7 +2,7 @@
 // The cell of a picture: caption, corner button, host of the picture, and a line about the point under the mouse.
 
 import { element } from "../base/elements.js"
-import { byHand } from "../base/windows.js"
+import { byHand } from "../base/modes.js"
 import { unbroken } from "./unbroken.js"
 
 const CROSS = "arrow keys move a cross, Enter chooses, + and − zoom, 0 shows the whole"

@@ -3,7 +3,7 @@
 
 import { listen } from "../base/bus.js"
 import { element } from "../base/elements.js"
-import { isPresenting } from "../base/presenting.js"
+import { isPresenting } from "../base/modes.js"
 import { spareStyles, spareUnseen, waitLongForPress } from "./bokeh_private.js"
 import { frameCanvas } from "./canvas.js"
 import { cellsPainter } from "./cells.js"

@@ -1,7 +1,7 @@
 // @ts-check
 // Sizes and colours of Bokeh plots, for the font size beside the pictures, present mode and the theme.
 
-import { zoom } from "../base/presenting.js"
+import { zoom } from "../base/modes.js"
 import { shade } from "./looks.js"
 
 // Font size of ticks relative to that of axis labels.

@@ -9,11 +9,10 @@
 
 import { bodyIn } from "./body.js"
 import { drawPoint } from "./body_parts.js"
-import { cloudsOf } from "./cloud.js"
+import { cloudsOf, pointLayer } from "./cloud.js"
 import { FAINT } from "./ghost.js"
 import { circlePath, drawMark, LOOKS } from "./looks.js"
 import { moment } from "./moment.js"
-import { pointLayer } from "./point_layer.js"
 import { curvesOf } from "./sources.js"
 import { drawBeads } from "./swarm.js"
 import { turnable } from "./turnable.js"

@@ -8,7 +8,7 @@
 
 import { listen, tell } from "../base/bus.js"
 import { button } from "../base/elements.js"
-import { isEmbedded } from "../base/windows.js"
+import { isEmbedded } from "../base/modes.js"
 
 const REST = 250
 // A click waits so long for a second one.

@@ -1,12 +1,43 @@
 // @ts-check
-// Words of a lesson that name a layer of a picture: the layer lights up while they have the pointer or the focus, and a click leads
-// with the picture if it does not lead.
+// Layers of pictures, as a lesson speaks of them: it hides one at a time, with its label, and the captions that would tell about it.
+// Words that name a layer light it up while they have the pointer or the focus, and a click leads with the picture if it does not
+// lead.
 
 import { tell } from "../base/bus.js"
 import { clipTo } from "./frame.js"
 import { gallery } from "./gallery.js"
 import { linesOf, overlay } from "./guess.js"
 import { circlePath, linePath } from "./looks.js"
+
+/** @typedef {{picture: string, source: string}} Layer a layer by its data source */
+
+/** @param {string} picture @returns {PlotView | undefined} */
+const plotOf = (picture) => gallery.plots.find(({ model }) => model.name === picture)
+
+/** @param {Layer | null} layer @returns {BokehModel[]} */
+function renderersOf(layer) {
+  // The label names the layer where it is.
+  const sources = [layer?.source, `${layer?.source}-label`]
+  return plotOf(layer?.picture)?.model.renderers.filter(({ data_source: data }) => sources.includes(data?.name)) ?? []
+}
+
+/** Return the function that hides a layer of the scene on show or what a guess is about, and shows what it has hidden before. */
+export function createVeil() {
+  /** @type {BokehModel[]} */
+  let hidden = []
+  /** @type {HTMLElement[]} */
+  let silent = []
+  return (/** @type {Layer | Prediction | null} */ layer) => {
+    for (const cell of silent) cell.classList.remove("veiled")
+    // A guess is about the whole state, which any picture may tell; a hidden layer about its own picture.
+    silent = layer === null ? [] : "what" in layer ? gallery.shown.cells : [gallery.cell(layer.picture)]
+    for (const cell of silent) cell.classList.add("veiled")
+    const next = renderersOf(layer)
+    for (const renderer of hidden) if (!next.includes(renderer)) renderer.visible = true
+    for (const renderer of next) renderer.visible = false
+    hidden = next
+  }
+}
 
 const [GLOW, WIDTH, RING] = ["rgba(230, 159, 0, 0.5)", 16, 12]
 
@@ -25,7 +56,7 @@ export function lightNames(el) {
   /** @param {Event} event */
   function light(event) {
     const [picture, layer] = named(event)
-    const plot = gallery.plots.find(({ model }) => model.name === picture)
+    const plot = plotOf(picture)
     // A hidden layer is not lit up: it may be the answer of a guess.
     const renderer = plot?.model.renderers.find(({ name, visible }) => name === layer && visible)
     if (renderer === undefined) return
