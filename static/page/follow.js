@@ -6,7 +6,7 @@ import { render as renderPictures, gallery } from "../pictures/gallery.js"
 import { createGuess } from "../pictures/guess.js"
 import { createVeil, lightNames } from "../pictures/layers.js"
 import { listen, tell } from "../base/bus.js"
-import { element } from "../base/elements.js"
+import { element, say } from "../base/elements.js"
 import { createMount } from "./mount.js"
 import { fill, paint } from "./painting.js"
 import { atMost, followed, newName, openRoom } from "./room_socket.js"
@@ -39,10 +39,7 @@ function renderStep({ el }) {
       question.innerHTML = step.question
       question.hidden = step.question === ""
     },
-    audience(sentence) {
-      said.textContent = sentence
-      said.hidden = sentence === ""
-    },
+    audience: (sentence) => say(said, sentence),
   })
 }
 

@@ -11,7 +11,7 @@ import { createVeil, lightNames } from "../pictures/layers.js"
 import { createAnimation } from "./animation.js"
 import { listen, tell } from "../base/bus.js"
 import { onKeys } from "../base/keys.js"
-import { button, element, update } from "../base/elements.js"
+import { button, element, say } from "../base/elements.js"
 import { browserStore } from "../base/stores.js"
 import { within } from "../base/numbers.js"
 import { byHand, CALM, isEmbedded } from "../base/modes.js"
@@ -108,7 +108,7 @@ export function render({ index, record, el }) {
     const isLast = at === lesson.steps.length - 1
     const isAlone = step.pictures.length > 0
     const [said, buttons] = [element("output.said"), element("div.row")]
-    update(audience, { textContent: "", hidden: true })
+    say(audience, "")
     if (prediction) {
       guess = createGuess(prediction, (text) => { said.textContent = text })
       revealing = button("button.param-reveal", reveal, "Reveal")
@@ -279,7 +279,7 @@ export function render({ index, record, el }) {
       // When all parts of the page have heard of the scene, and still before its painting.
       queueMicrotask(() => { if (expected !== null) arrange(expected) })
     },
-    audience: (text) => update(audience, { textContent: text, hidden: text === "" }),
+    audience: (text) => say(audience, text),
     painted() {
       const then = arriving
       arriving = null

@@ -2,7 +2,7 @@
 // Short texts that change often, set as text and never as HTML: notes and numbers, the status line, and the progress of a state.
 
 import { listen, tell } from "../base/bus.js"
-import { button, element, update } from "../base/elements.js"
+import { button, element, say, update } from "../base/elements.js"
 
 const SHOWN_AFTER = 300
 
@@ -12,13 +12,13 @@ const SHOWN_AFTER = 300
  */
 export function renderText({ key, tag = "p", el }) {
   const item = element(`${tag}.text.${key}`, { role: tag === "p" ? "status" : null, hidden: true })
-  listen({ texts({ [key]: text }) { if (text !== undefined) update(item, { textContent: text, hidden: text === "" }) } })
+  listen({ texts({ [key]: text }) { if (text !== undefined) say(item, text) } })
   el.append(item)
 }
 
 /** Render the status line: a summary that unfolds into its details. @param {{el: HTMLElement}} part */
 export function renderStatus({ el }) {
-  const shown = element("span", { role: "status" })
+  const shown = element("output")
   const details = element("div.text.details")
   const item = element("details.text.status", element("summary", shown), details)
   listen({

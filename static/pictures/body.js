@@ -20,7 +20,7 @@ import {
 import { circlePath, drawDisc, LOOKS } from "./looks.js"
 import { between, moment } from "./moment.js"
 import { covers, createSolid, leaves } from "./solid.js"
-import { circle, cross, dot, plus, scaled, unit } from "./vectors.js"
+import { circle, columnsOf, cross, dot, plus, scaled, unit } from "./vectors.js"
 
 const CAVITY = 0.62
 const INNER = 0.26
@@ -60,13 +60,10 @@ function placing(columns, i, s) {
 function drawSection({ use, stroke }, normal, radius, axes, semi) {
   use({ weight: 2.5, dash: [6, 4] })
   const ring = circle(normal, 0, 192)
-  /** @type {number[][]} */
-  const sides = [[], [], []]
-  for (let i = 0; i < ring[0].length; i++) {
+  const sides = columnsOf(ring[0].map((_, i) => {
     const at = ring.map((column) => column[i])
-    const outwards = axes.reduce((sum, axis, k) => plus(sum, axis, dot(at, axis) / (semi[k] * semi[k])), [0, 0, 0])
-    outwards.forEach((x, k) => sides[k].push(x))
-  }
+    return axes.reduce((sum, axis, k) => plus(sum, axis, dot(at, axis) / (semi[k] * semi[k])), [0, 0, 0])
+  }))
   stroke(ring.map((column) => scaled(column, radius)), true, sides)
 }
 
@@ -89,10 +86,7 @@ export function bodyIn(source, attitude) {
     const places = [...Array(i + 1 - first).keys()].map((j) => placing(columns, first + j, 0))
     places.push(place)
     /** Return the latest path of a point of the body. @param {Vector} tip */
-    const pathOf = (tip) => {
-      const points = places.map((there) => there(tip))
-      return [0, 1, 2].map((k) => points.map((point) => point[k]))
-    }
+    const pathOf = (tip) => columnsOf(places.map((there) => there(tip)))
     /** @type {Vector[]} */
     const placed = axes.map(place)
     const way = arc.length ? arc[i] + s * (arc[i + 1] - arc[i]) : 0

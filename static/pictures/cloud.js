@@ -9,6 +9,7 @@
 
 import { element } from "../base/elements.js"
 import { cloudColour } from "./looks.js"
+import { moment } from "./moment.js"
 
 class Cloud {
   /**
@@ -141,9 +142,11 @@ export function cloudsOf(source) {
 }
 
 /**
- * Return a layer that draws clouds of points as small translucent squares; where many overlap it is opaque.
+ * Return a layer that draws the clouds of a source as small translucent squares; where many overlap it is opaque.
+ * @param {Source} source
  */
-export function pointLayer() {
+export function pointLayer(source) {
+  const clouds = cloudsOf(source)
   const sheet = element("canvas")
   const paper = sheet.getContext("2d")
   /** @type {ImageData | null} */
@@ -161,17 +164,14 @@ export function pointLayer() {
 
   return {
     /**
-     * Draw clouds into a picture of `size` device pixels.
-     * @template {{count: number}} Points
-     * @param {CanvasRenderingContext2D} ctx
-     * @param {number} size
-     * @param {number} ratio device pixels per unit
-     * @param {Points[]} clouds
-     * @param {(cloud: Points, add: (x: number, y: number) => void) => void} points calls add(x, y) in device pixels for each point
+     * Draw the clouds at the time of the player.
+     * @param {{ctx: CanvasRenderingContext2D, edge: number, ratio: number}} picture its edge, and device pixels per unit
+     * @param {(cloud: Cloud, add: (x: number, y: number) => void) => void} points calls add(x, y) in device pixels for each point
      */
-    draw(ctx, size, ratio, clouds, points) {
+    draw({ ctx, edge, ratio }, points) {
+      const size = Math.round(edge * ratio)
       const side = Math.round(1.6 * ratio)
-      clouds.forEach((cloud, k) => {
+      clouds.at(moment.t).forEach((cloud, k) => {
         begin(size, cloudColour(k))
         const { data } = pixels
         // Smaller clouds are darker.

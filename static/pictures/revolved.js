@@ -6,7 +6,7 @@
 
 import { element } from "../base/elements.js"
 import { LIGHT, HALFWAY } from "./solid.js"
-import { dot, scaled } from "./vectors.js"
+import { columnsOf, dot, scaled } from "./vectors.js"
 
 // Facets around the axis of a large surface, and the largest number of pixels on a side, in a file and on the screen.  A small
 // surface has every second facet: their sides are then some ten pixels long too, and a quarter of a pixel inside a circle.
@@ -80,8 +80,7 @@ export function outline(radius, height, azimuth, elevation) {
     for (const position of found) {
       const [nearest] = before.toSorted((one, other) => apart(one, position) - apart(other, position))
       if (!(apart(nearest, position) < n / 8)) continue
-      const ends = [at(nearest, last), at(position, psi)]
-      segments.push([0, 1, 2].map((k) => ends.map((end) => end[k])))
+      segments.push(columnsOf([at(nearest, last), at(position, psi)]))
     }
     last = psi
     before = found

@@ -9,7 +9,7 @@
 
 import { bodyIn } from "./body.js"
 import { drawPoint } from "./body_parts.js"
-import { cloudsOf, pointLayer } from "./cloud.js"
+import { pointLayer } from "./cloud.js"
 import { FAINT } from "./ghost.js"
 import { circlePath, drawMark, LOOKS } from "./looks.js"
 import { moment } from "./moment.js"
@@ -24,11 +24,11 @@ import { circle, graticule, scaled } from "./vectors.js"
  * @returns {SphereGuest}
  */
 function sphereClouds(source) {
-  const clouds = cloudsOf(source)
-  const layer = pointLayer()
+  const layer = pointLayer(source)
   return {
-    paint({ ctx, edge, ratio, px, py, depth }, near) {
-      layer.draw(ctx, Math.round(edge * ratio), ratio, clouds.at(moment.t), ({ count, g1, g2, g3 }, add) => {
+    paint(sheet, near) {
+      const { ratio, px, py, depth } = sheet
+      layer.draw(sheet, ({ count, g1, g2, g3 }, add) => {
         for (let i = 0; i < count; i++) {
           const [x, y, z] = [g1[i], g2[i], g3[i]]
           if (depth(x, y, z) >= 0 === near) add(ratio * px(x, y), ratio * py(x, y, z))

@@ -134,9 +134,10 @@ export function createStage(shelf, gallery) {
     /** @type {HTMLElement} */
     const corner = cell.querySelector(".corner")
     const isChosen = large.includes(nameOf(cell))
-    const title = `${isChosen ? "Back to the usual lead" : isLeading ? "Lead alone" : "Lead"} (${i + 1})`
+    const action = isChosen ? "Back to the usual lead" : isLeading ? "Lead alone" : "Lead"
+    const title = `${action} (${i + 1})`
     if (corner.title === title) return
-    relabel(corner, isChosen ? REDUCE : ENLARGE, title, `${title.slice(0, title.indexOf(" ("))}: ${labelOf(cell) || `picture ${i + 1}`}`)
+    relabel(corner, isChosen ? REDUCE : ENLARGE, title, `${action}: ${labelOf(cell) || `picture ${i + 1}`}`)
     corner.ariaPressed = String(isChosen)
   }
 
