@@ -10,6 +10,7 @@
 import { element } from "../base/elements.js"
 import { cloudColour } from "./looks.js"
 import { moment } from "./moment.js"
+import { atFirst } from "./sources.js"
 
 class Cloud {
   /**
@@ -114,31 +115,22 @@ class Cloud {
   }
 }
 
-/** @type {WeakMap<Source, {at: (t: number) => Cloud[]}>} */
-const allClouds = new WeakMap()
+const cloudsFrom = atFirst((/** @type {Data} */ data) => [0, 1].filter((i) => data[`frames${i}`]?.length > 0).map((i) => (
+  new Cloud(data[`frames${i}`], data[`signs${i}`], data.body, data.times, data.sense))))
 
 /**
  * Return the clouds of a source; at(t) returns them at a time.  All pictures of a source share its clouds.
  * @param {Source} source
  */
 export function cloudsOf(source) {
-  if (allClouds.has(source)) return allClouds.get(source)
-  /** @type {Data | null} */
-  let data = null
-  /** @type {Cloud[]} */
-  let clouds = []
-  /** @param {number} t */
-  const at = (t) => {
-    if (data !== source.data) {
-      data = source.data
-      clouds = [0, 1].filter((i) => data[`frames${i}`]?.length > 0).map((i) => (
-        new Cloud(data[`frames${i}`], data[`signs${i}`], data.body, data.times, data.sense)))
-    }
-    for (const cloud of clouds) cloud.moveTo(t)
-    return clouds
+  return {
+    /** @param {number} t */
+    at(t) {
+      const clouds = cloudsFrom(source.data)
+      for (const cloud of clouds) cloud.moveTo(t)
+      return clouds
+    },
   }
-  allClouds.set(source, { at })
-  return allClouds.get(source)
 }
 
 /**

@@ -8,6 +8,7 @@
 
 import { drawDisc, shade } from "./looks.js"
 import { moment } from "./moment.js"
+import { atFirst } from "./sources.js"
 
 const FIRST = 32767
 const TURN = 2 * Math.PI
@@ -29,9 +30,6 @@ export class Swarm {
     /** @type {Map<string, {t: number, values: Float32Array}>} */
     this.columns = new Map()
   }
-
-  /** @param {string} name */
-  has(name) { return this.data.names.includes(name) }
 
   /** Return a column of all motions at the time t. @param {string} name @param {number} t */
   at(name, t) {
@@ -80,22 +78,7 @@ export class Swarm {
   }
 }
 
-/** @type {WeakMap<Source, {data: Data, swarm: Swarm | null}>} */
-const swarms = new WeakMap()
-
-/**
- * Return the swarm of a source if it has these columns, otherwise null.
- * @param {Source} source
- * @param {string[]} names
- * @returns {Swarm | null}
- */
-function swarmOf(source, names) {
-  if (swarms.get(source)?.data !== source.data) {
-    swarms.set(source, { data: source.data, swarm: source.data.count > 0 ? new Swarm(source.data) : null })
-  }
-  const { swarm } = swarms.get(source)
-  return swarm !== null && names.every((name) => swarm.has(name)) ? swarm : null
-}
+const swarmOf = atFirst((/** @type {Data} */ data) => (data.count > 0 ? new Swarm(data) : null))
 
 /**
  * Draw the beads of a swarm whose columns have these names; nothing without such a swarm.
@@ -105,8 +88,8 @@ function swarmOf(source, names) {
  * @param {(columns: Float32Array[], i: number) => [x: number, y: number, isNear?: boolean]} pointOf returns the point of motion i
  */
 export function drawBeads(ctx, source, names, pointOf) {
-  const swarm = swarmOf(source, names)
-  if (swarm === null) return
+  const swarm = swarmOf(source.data)
+  if (!swarm || !names.every((name) => swarm.data.names.includes(name))) return
   const { count, palette } = swarm.data
   const columns = names.map((name) => swarm.at(name, moment.t))
   const [, radius] = SIZES.find(([most]) => count <= most)
