@@ -47,8 +47,6 @@ export const gallery = {
   cellsInSight: () => shown.cells.filter(isInSight),
   openCells: () => shown.cells.filter((cell) => !isFolded(cell)),
   get shown() { return shown },
-  /** The picture that was last under the mouse. @type {string | null} */
-  pointed: null,
   build, enter, takeGhost, showGhost, shoot,
 }
 
@@ -79,8 +77,7 @@ async function build(description, begun = async () => {}) {
   /** @type {Scene} */
   const scene = { name: description.name, lead: description.lead, grid, sources: new Map(), cells: [], plots: [], ranges: {}, beside: {}, ghosts: [], shots: new Map(), sizes: new Map(), painted: false, isComplete: false, source }
   const places = description.pictures.map((picture) => {
-    const { name } = picture
-    const [cell, host] = createCell(picture, stage.cornerFor(name), () => { gallery.pointed = name })
+    const [cell, host] = createCell(picture, stage.cornerFor(picture.name))
     grid.append(cell)
     scene.cells.push(cell)
     return /** @type {[HTMLElement, PictureDescription]} */ ([host, picture])
@@ -139,7 +136,6 @@ function shoot(side) {
 function enter(name) {
   shown?.grid.classList.add("away")
   shown = built.get(name)
-  gallery.pointed = null
   shown.grid.classList.remove("away")
   stage.enter(shown)
   return shown
