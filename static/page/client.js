@@ -48,9 +48,10 @@ export function startClient(model, host) {
   let more = null
   // When the last new part of the state was painted.
   let news = 0
-  // Everything the server has sent about the scene on show.
-  /** @type {{scene: SceneDescription | null, texts: Texts, controls: Record<string, ControlValue>}} */
-  let latest = { scene: null, texts: {}, controls: {} }
+  // The description of the scene on show, and its derived numbers.
+  /** @type {SceneDescription | null} */
+  let entered = null
+  let derived = ""
   root.dataset.ready = "false"
   root.dataset.state = "0"
   present(own.present === "1")
@@ -75,7 +76,7 @@ export function startClient(model, host) {
   const requests = createRequests({
     send: (message) => send(message),
     changed: () => { root.dataset.ready = "false" },
-    hidden: () => [...visibility.hidden(), ...(latest.scene.absent ?? [])],
+    hidden: () => [...visibility.hidden(), ...(entered.absent ?? [])],
     known: (name) => descriptions.has(name),
   })
 
@@ -83,9 +84,7 @@ export function startClient(model, host) {
     query: () => state.query, isSettled: () => state !== null && !requests.isBehind(state.answers), address,
   }, steps)
 
-  const compare = createCompare(() => ({
-    query: state.query, scene: latest.scene, derived: latest.texts.derived ?? "",
-  }))
+  const compare = createCompare(() => ({ query: state.query, scene: entered, derived }))
 
   handleCommands(address)
   joinOther()
@@ -114,8 +113,7 @@ export function startClient(model, host) {
   /** Fill pictures, texts and controls with a state. @param {StateAnswer} answer @param {ArrayBuffer} block */
   const fillAll = ({ tree, answers }, block) => {
     fill(scene, tree, block)
-    Object.assign(latest.texts, tree.texts)
-    Object.assign(latest.controls, tree.controls)
+    derived = tree.texts.derived ?? derived
     // Controls that were moved since the request keep their values.
     tell("controls", Object.fromEntries(
       Object.entries(tree.controls).filter(([name]) => !requests.hasMoved(name, answers))))
@@ -124,12 +122,13 @@ export function startClient(model, host) {
   /** @param {string} name */
   const enter = (name) => {
     scene = gallery.enter(name)
-    latest = { scene: descriptions.get(name), texts: {}, controls: {} }
+    entered = descriptions.get(name)
+    derived = ""
     visibility.watch(scene.cells)
     requests.entered(name)
     root.dataset.scene = name
-    document.title = `Hess Explorer · ${latest.scene.title}`
-    tell("enter", latest.scene)
+    document.title = `Hess Explorer · ${entered.title}`
+    tell("enter", entered)
   }
 
   /** @param {StateAnswer} next @param {ArrayBuffer} block */
