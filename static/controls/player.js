@@ -139,6 +139,7 @@ export function render({ el }) {
   document.addEventListener("keyup", (event) => {
     if (event.key === " " && !isTaken(event) && !toggle.hidden) event.preventDefault()
   })
+
   function playGently() {
     if (playing || end() === 0) return
     gentle = Math.min(Number(speed.value), end() / GENTLE)
