@@ -35,7 +35,7 @@ export function recording() {
   /** @type {string[]} */
   let names = []
   let large = ""
-  const count = element("output")
+  const count = element("span", { role: "status" })
   const box = element("div.row.recording", { hidden: true }, count,
     button("button.param-save-recording", save, "Save as a lesson"),
     button("button.param-drop-recording", end, "Discard"))
