@@ -6,8 +6,8 @@ import { button, element, icon } from "../base/elements.js"
 import { isPresenting, PHONE } from "../base/modes.js"
 
 /**
- * A tool, which tells its name.  without: why it is disabled when there is no such step; menu: the menu that holds it; asks: it opens a dialog, which needs
- * the server.
+ * A tool, which tells its name.  without: why it is disabled when there is no such step; menu: the menu that holds it; asks: it opens
+ * a dialog, which needs the server.
  * @typedef {{name: keyof PageEvents, title: string, icon: string, label?: string, without?: string,
  *   menu?: "sharing" | "more", asks?: true}} Tool
  */

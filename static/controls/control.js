@@ -84,7 +84,8 @@ function formula({ name, label, help }) {
     line.isAsked = false
     shown = value
   }
-  const item = element("div", element(`label.menu.param-${name}`, element("span", label), line.box), line.why, element("p.text.help", help))
+  const item = element("div",
+    element(`label.menu.param-${name}`, element("span", label), line.box), line.why, element("p.text.help", help))
   return { item, show, refuse: line.mark }
 }
 

@@ -20,8 +20,8 @@ const HOME = [0.6, 0.35]
  * @param {{name: string, title: string, what: string, isShown: () => boolean, sources: Source[],
  *   paint: (on: Sheet) => void, paintMoving?: ((on: Sheet) => void) | null,
  *   take: () => Image, paintGhost: (on: Sheet, image: Image) => void}} picture its name and title, what turns ("sphere"), and
- *   whether its scene is on show; `sources` are those at whose change it is painted, and paintMoving draws what moves in time, on a canvas above: the rest is not painted again for it.  take() returns what
- *   paintGhost draws of an earlier state
+ *   whether its scene is on show; `sources` are those at whose change it is painted, and paintMoving draws what moves in time, on a
+ *   canvas above: the rest is not painted again for it.  take() returns what paintGhost draws of an earlier state
  * @returns {Drawn}
  */
 export function turnable(el, className, {
