@@ -1,15 +1,13 @@
 // @ts-check
-// The control of a number: a slider, a label that can be dragged, and a box.  The box takes exact values, and expressions that the
-// server evaluates; arrow keys change the value by one step, with Shift by ten.
+// The control of a number: a slider, a box for exact values ("box.js"), and a label that can be dragged.
 
 import { tell } from "../base/bus.js"
 import { onDrag } from "../base/drag.js"
 import { arrowOf } from "../base/keys.js"
 import { within } from "../base/numbers.js"
-import { element, say, update } from "../base/elements.js"
-import { textBox } from "./box.js"
+import { element, update } from "../base/elements.js"
+import { exactBox } from "./box.js"
 
-const TYPE = "Type a value or an expression such as pi/3, then press Enter."
 const IDLE = "Disabled: no effect with the current choices."
 // Steps of a slider without a step size.
 const PARTS = 400
@@ -20,16 +18,6 @@ const FULL_DRAG = 400
 // Rounds 0.1 + 0.2 to 0.3.
 /** @param {number} value */
 const tidy = (value) => Number(value.toPrecision(12))
-
-// Accepts a decimal comma.
-/** @param {string} text */
-const pointed = (text) => text.trim().replace(",", ".")
-
-/** Return the number that was typed; NaN for any other text, which the server reads. @param {string} text */
-function numberOf(text) {
-  const plain = pointed(text)
-  return plain === "" || !Number.isFinite(Number(plain)) ? Number.NaN : Number(plain)
-}
 
 // Where less than this share of the scale is possible, the slider shows only the possible part.
 const LEAST_SHARE = 1 / 8
@@ -62,7 +50,7 @@ export function number({ name, label, symbol, help, range }) {
   const take = (value) => {
     slider.valueAsNumber = value
     if (value === shown) return
-    exact.put(String(value))
+    exact.put(value)
     change(value)
   }
   /** @param {number} value */
@@ -86,49 +74,28 @@ export function number({ name, label, symbol, help, range }) {
       event.preventDefault()
     },
   })
-  const exact = textBox("exact", {
-    inputMode: "decimal", title: `${help} ${TYPE}`, ariaLabel: `${symbol}, exact value`,
-    onchange() {
-      if (box.value.trim() === "") return exact.mark("This is not a number: type one like 1.5, 1e-8 or pi/3.")
-      const typed = numberOf(box.value)
-      exact.isAsked = Number.isNaN(typed)
-      if (exact.isAsked) return tell("expression", { [name]: pointed(box.value) })
-      if (typed !== shown) change(typed)
-      // As the server will write it; any other text is one that is being typed.
-      box.value = String(typed)
-    },
-  }, () => String(shown), (event) => {
-    const [, up] = arrowOf(event) ?? [0, 0]
-    if (up === 0) return false
-    const typed = numberOf(box.value)
-    take(tidy((Number.isNaN(typed) ? shown : typed) + up * stepOf() * (event.shiftKey ? 10 : 1)))
-    return true
-  })
-  const { box } = exact
+  const exact = exactBox({ name, symbol, help, stepOf, change, value: () => shown, nudge: (value) => take(tidy(value)) })
   onDrag(title, ({ button, clientX }) => (slider.disabled || button !== 0 ? null : [clientX, shown]),
     ([x, from], { clientX, shiftKey }) => {
       const step = stepOf()
       const steps = Math.max(1, Math.round((high - low) / FULL_DRAG / step)) * (shiftKey ? 10 : 1)
       move(from + Math.round(clientX - x) * steps * step)
     })
-  const frame = element(`div.number.param-${name}`, title, box, slider, exact.why)
+  const frame = element(`div.number.param-${name}`, title, exact.box, slider, exact.why)
 
   /** @param {boolean} idle */
   const rest = (idle) => {
     if (idle === slider.disabled) return
     const why = idle ? `${IDLE} ${help}` : ""
-    slider.disabled = box.disabled = idle
-    box.title = why || `${help} ${TYPE}`
+    slider.disabled = idle
+    exact.rest(why)
     title.classList.toggle("scrub", !idle)
     title.title = slider.title = slider.ariaDescription = why || help
   }
   /** @type {(value: [number, number, number, number, boolean?]) => void} */
   const show = ([value, from, to, step, idle = false]) => {
     rest(idle)
-    if (exact.isAsked || !exact.isFocused() || box.value === String(shown)) {
-      // A disabled box cannot be scrolled: show as many digits as fit.
-      exact.put(String(idle ? Number(value.toPrecision(6)) : value))
-    }
+    exact.show(shown, value, idle)
     shown = value
     ;[low, high] = [Math.min(from, value), Math.max(to, value)]
     const [min, max] = scaleOf(range, from, to, value)
@@ -145,12 +112,7 @@ export function number({ name, label, symbol, help, range }) {
     if (value === shown) return
     shown = value
     slider.valueAsNumber = value
-    exact.put(String(tidy(value)))
+    exact.put(tidy(value))
   }
-  /** Mark an expression that the server refuses. @param {string} why */
-  const refuse = (why) => {
-    if (exact.isAsked) exact.mark(why)
-    exact.isAsked = false
-  }
-  return { item: frame, show, refuse, limit: (why) => say(exact.why, why), follow }
+  return { item: frame, show, refuse: exact.refuse, limit: exact.limit, follow }
 }

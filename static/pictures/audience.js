@@ -18,7 +18,7 @@ const FAINT = "80"
 export function createAudience(prediction, cloud, say) {
   const plot = gallery.plot(prediction.picture)
   const isCurve = prediction.what === "curve"
-  const { draw, remove, toPixels, toData } = overlay(plot, "audience", { ariaHidden: true }, paint)
+  const { draw, remove, toPixels, toData } = overlay(plot, "audience", { ariaHidden: true }, "pointer-events: none", paint)
   const points = cloud.flat()
   const middle = points.length === 0 ? [] : isCurve ? medianCurve(points) : [middleOf(points)]
   // The truth in pixels; it may come in pieces, later than the state, and a repainting moves it.

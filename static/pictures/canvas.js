@@ -5,7 +5,7 @@
 import { listen } from "../base/bus.js"
 import { element } from "../base/elements.js"
 import { zoom } from "../base/modes.js"
-import { clipTo } from "./frame.js"
+import { clipTo, covering } from "./frame.js"
 import { inks, onDark } from "./looks.js"
 import { largerOf } from "./plot_looks.js"
 
@@ -104,7 +104,8 @@ export function squareCanvas(el, className, properties, paint) {
  * @param {PaintFrame} paint draws in Bokeh's pixels, clipped to the frame; like Bokeh, offset by half a pixel
  */
 export function frameCanvas(plot, other, side, paint) {
-  const canvas = element("canvas.over")
+  const canvas = element("canvas")
+  canvas.style.cssText = covering("pointer-events: none")
   other[side](canvas)
   let stale = true
   let drawn = ""

@@ -27,3 +27,9 @@ export function clipTo(ctx, { x0, y0, x1, y1 }) {
   ctx.rect(x0, y0, x1 - x0, y1 - y0)
   ctx.clip()
 }
+
+/**
+ * Return the style of a canvas over a plot, into which the style sheets of the page do not reach.
+ * @param {string} more declarations
+ */
+export const covering = (more) => `position: absolute; inset: 0; width: 100%; height: 100%; ${more}`

@@ -5,7 +5,7 @@ import { arrowOf } from "../base/keys.js"
 import { element } from "../base/elements.js"
 import { within, written } from "../base/numbers.js"
 import { fit } from "./canvas.js"
-import { toPixels, toValues } from "./frame.js"
+import { covering, toPixels, toValues } from "./frame.js"
 import { gallery } from "./gallery.js"
 import { circlePath, linePath } from "./looks.js"
 
@@ -14,6 +14,7 @@ const MOST = 40
 export const GUESS = "#D55E00"
 export const TRUTH = "#009E73"
 const STEP = 8
+const FOCUS = "inset 0 0 0 2px #0072B2"
 
 /** @param {number[]} values */
 const mean = (values) => values.reduce((sum, one) => sum + one, 0) / values.length
@@ -38,11 +39,13 @@ export const inWords = (plot, distances) => axesOf(plot).map(([{ type }, { axis_
  * @param {PlotView} plot
  * @param {string} name its class
  * @param {object} properties see `element`
+ * @param {string} style the style sheets of the page do not reach into the plot
  * @param {(ctx: CanvasRenderingContext2D) => void} paint
  */
-export function overlay(plot, name, properties, paint) {
-  const sheet = element(`canvas.over.${name}`, properties)
+export function overlay(plot, name, properties, style, paint) {
+  const sheet = element(`canvas.${name}`, properties)
   const draw = () => paint(fit(sheet, plot.bbox.width, plot.bbox.height))
+  sheet.style.cssText = covering(style)
   plot.canvas_view.overlays.el.parentNode.append(sheet)
   plot.repainted.connect(draw)
   return {
@@ -188,7 +191,9 @@ export function createGuess(prediction, say, guessed = null) {
         tabIndex: 0, role: "application", ariaLabel: "Your guess: click or use the arrow keys",
         title: isCurve ? "Click along the expected curve" : "Click where you expect it", onkeydown,
         onclick: (/** @type {MouseEvent} */ { offsetX, offsetY }) => { if (!this.isRevealed) add(offsetX, offsetY) },
-      }, paint)
+        onfocus: () => { sheet.style.boxShadow = sheet.matches(":focus-visible") ? FOCUS : "" },
+        onblur: () => { sheet.style.boxShadow = "" },
+      }, "cursor: crosshair; touch-action: pan-x pan-y; outline: none", paint)
       const { sheet } = over
       // The picture itself ignores these clicks and drags.
       for (const name of ["pointerdown", "pointermove", "pointerup", "touchstart"]) {

@@ -62,7 +62,7 @@ export function lightNames(el) {
     if (renderer === undefined) return
     dim()
     const { glyph: { type, x, y, xs = x, ys = y }, data_source: { name: source } } = renderer
-    over = overlay(plot, "glow", { ariaHidden: true }, (ctx) => {
+    over = overlay(plot, "glow", { ariaHidden: true }, "pointer-events: none", (ctx) => {
       clipTo(ctx, plot.frame.bbox)
       for (const line of linesOf({ source, columns: [xs.field, ys.field], what: type === "Scatter" ? "point" : "curve" })) {
         const points = line.map(over.toPixels)

@@ -46,13 +46,11 @@ function leaveKeysToHost(plot) {
   for (const layer of /** @type {NodeListOf<HTMLElement>} */ (layers.querySelectorAll("[tabindex]"))) layer.tabIndex = -1
 }
 
-// The style sheets of the page do not reach into a plot.  Bokeh sets a cursor over the frame: show that of the picture instead.
-const STYLE = `
-  div { cursor: inherit !important }
-  .over { position: absolute; inset: 0; width: 100%; height: 100%; pointer-events: none }
-  .guess { pointer-events: auto; cursor: crosshair; touch-action: pan-x pan-y; outline: none }
-  .guess:focus-visible { box-shadow: inset 0 0 0 2px #0072B2 }
-`
+// Bokeh sets a cursor over the frame; show that of the picture instead.
+/** @param {PlotView} plot */
+function inheritCursor(plot) {
+  plot.canvas_view.overlays.el.parentNode.append(element("style", "div { cursor: inherit !important }"))
+}
 
 // Canvases for layers that Bokeh would draw slowly: cells below everything else, dots below the moving layers, and above them
 // the points that move in time.
@@ -154,7 +152,7 @@ export async function buildPlot(host, picture, source) {
     if (one.data !== undefined && one.name !== null) source(one.name).add(one, plot)
   }
   addCanvases(plot, picture, source)
-  plot.canvas_view.overlays.el.parentNode.append(element("style", STYLE))
+  inheritCursor(plot)
   leaveKeysToHost(plot)
   spareStyles(plot)
   spareUnseen(plot)
