@@ -300,9 +300,7 @@ interface Scene {
   sizes: Map<PlotView, string>
 }
 
-/** Properties of a painted canvas: its side or size in its own units, device pixels per unit, colour of text, theme. */
-interface CanvasLook { width: number, height: number, text: string, dark: boolean }
-/** `isFine`: shaded as finely as print needs. */
+/** A painted canvas: its side in its own units, device pixels per unit, colour of text, theme; `isFine`: shaded as finely as print needs. */
 interface SquareLook { edge: number, ratio: number, text: string, dark: boolean, isFine?: boolean }
 /** `texts` collects the texts, which are then not drawn. */
 interface ShotLook extends SquareLook { texts?: LiftedText[] }
@@ -319,8 +317,6 @@ interface LiftedText {
   baseline: CanvasTextBaseline
 }
 type PaintSquare = (ctx: CanvasRenderingContext2D, look: SquareLook) => void
-/** `turn` is the azimuth and elevation of the eye. */
-type PaintTurned = (ctx: CanvasRenderingContext2D, look: SquareLook, turn: [number, number]) => void
 /** `larger` is the factor of the sizes of lines and dots. */
 type PaintFrame = (ctx: CanvasRenderingContext2D, xScale: BokehScale, yScale: BokehScale, larger: number) => void
 
@@ -335,7 +331,6 @@ type Sheet = ReturnType<typeof import("./pictures/projection.js").createSheet>
 
 /** A drawing on a sphere; begin, paint (far, then near half) and middle (between them) are called in this order. */
 interface SphereGuest {
-  t: number
   begin?(sheet: Sheet): void
   paint(sheet: Sheet, near: boolean): void
   middle?(sheet: Sheet): void
@@ -446,7 +441,6 @@ interface PageEvents {
   /** How many steps can be undone and redone. */
   steps: { undo: number, redo: number }
   presenting: boolean
-  embedding: void
   "lesson-read": { lesson: Lesson, step: number | null }
   compared: Compared | null
   // From the player

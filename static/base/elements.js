@@ -44,8 +44,11 @@ export function update(item, properties) {
   }
 }
 
-/** Return the HTML of an icon; the lines of the path are drawn in a box of 24 × 24 units. */
-export function icon(path = "", size = "1.4em") {
+/** Show a text in an element, which is hidden without one. @param {HTMLElement} item @param {string} text */
+export const say = (item, text) => update(item, { textContent: text, hidden: text === "" })
+
+/** Return the HTML of an icon; the lines of the path are drawn in a box of 24 × 24 units. @param {string} path */
+export function icon(path, size = "1.4em") {
   return `<svg class="icon" viewBox="0 0 24 24" width="${size}" height="${size}" aria-hidden="true"><path d="${path}"/></svg>`
 }
 

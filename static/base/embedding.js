@@ -1,22 +1,7 @@
 // @ts-check
 // The page embedded in another one (embed=1): some pictures, some controls, the player, and a link to the whole page.
 
-import { tell } from "./bus.js"
-
 const KEYS = ["embed", "pictures", "controls"]
-const root = document.documentElement
-
-/** Return whether the page is embedded. */
-export const isEmbedded = () => root.hasAttribute("data-embed")
-
-/** Return whether the page lives in a file, without a server. */
-export const isFile = () => root.dataset.home !== undefined
-
-/** Mark the page as embedded. */
-export function embed() {
-  root.toggleAttribute("data-embed", true)
-  tell("embedding")
-}
 
 /**
  * Return the address of the whole page in its state, or of an embedded page with some of its parts.
@@ -24,7 +9,8 @@ export function embed() {
  */
 export function linkTo(parts = null) {
   // A file links to its explorer.
-  const url = isFile() ? new URL(`?${location.hash.slice(1)}`, root.dataset.home) : new URL(location.href)
+  const { home } = document.documentElement.dataset
+  const url = home === undefined ? new URL(location.href) : new URL(`?${location.hash.slice(1)}`, home)
   for (const key of [...KEYS, ...(parts === null ? [] : ["large", "present"])]) url.searchParams.delete(key)
   if (parts === null) return url.href
   url.searchParams.set("embed", "1")

@@ -2,9 +2,9 @@
 // A "drag me" sign beside the main handle of a scene until anything is changed; shown once per scene and browser.
 
 import { listen } from "./bus.js"
-import { isEmbedded } from "./embedding.js"
 import { element } from "./elements.js"
 import { browserStore } from "./stores.js"
+import { isEmbedded } from "./modes.js"
 
 /** @type {(keyof PageEvents)[]} */
 const CHANGES = ["change", "expression", "preset", "reset", "clear", "pick", "restore", "step", "enter"]
@@ -44,7 +44,7 @@ export function sayDragMe(find) {
       if (entered === null) return
       const { name, handle } = entered
       entered = null
-      const found = handle === null || isEmbedded() || isReading || said.has(name) ? null : find(/** @type {Kind} */ (handle))
+      const found = handle === null || isEmbedded || isReading || said.has(name) ? null : find(/** @type {Kind} */ (handle))
       if (found === null) return
       const { host, place, moved } = found
       const sign = element("span.drag-me", { ariaHidden: true }, "drag me")

@@ -3,16 +3,13 @@
 
 import { listen, tell } from "../base/bus.js"
 import { button, element, icon } from "../base/elements.js"
-import { isPresenting } from "../base/presenting.js"
-import { PHONE } from "../base/windows.js"
+import { isPresenting, PHONE } from "../base/modes.js"
 
 /**
- * A tool, which tells its name.  isDrawn: only for scenes where clicks and boxes draw something; without: why it is disabled
- * when there is no such step; menu: the menu that holds it; asks: it opens a dialog, and is
- * there only if the page has that dialog.
- * @typedef {{name: keyof PageEvents, title: string, icon: string, label?: string, isDrawn?: true, without?: string,
+ * A tool, which tells its name.  without: why it is disabled when there is no such step; menu: the menu that holds it; asks: it opens
+ * a dialog, which needs the server.
+ * @typedef {{name: keyof PageEvents, title: string, icon: string, label?: string, without?: string,
  *   menu?: "sharing" | "more", asks?: true}} Tool
- * @typedef {{box: HTMLElement, open: () => void, show?: (scene: SceneDescription) => void}} Dialog
  */
 /** @type {Tool[]} */
 const TOOLS = [
@@ -32,7 +29,7 @@ const TOOLS = [
     icon: "M12 4v11M7 10l5 5 5-5M5 16v4h14v-4" },
   { name: "present", title: "Present mode: large type, few controls (P)",
     icon: "M3 4h18M5 4v12h14V4M8 21l4-5 4 5" },
-  { name: "clear", label: "Remove clicks and boxes", title: "Remove all clicks and boxes", isDrawn: true, menu: "more",
+  { name: "clear", label: "Remove clicks and boxes", title: "Remove all clicks and boxes", menu: "more",
     icon: "M6 6l12 12M18 6 6 18" },
   { name: "reset", label: "Reset", title: "Back to the initial state", menu: "more",
     icon: "M5 4v6h6M5 10a8 8 0 1 1 0 5" },
@@ -63,26 +60,6 @@ function menuOf(name, label, path, tools) {
   return [opener, menu]
 }
 
-/**
- * Keep tools in a menu on a phone, and elsewhere in the bar.
- * @param {HTMLElement[]} tools
- * @param {HTMLElement} menu
- */
-function foldOnPhone(tools, menu) {
-  const places = tools.map((tool) => ({ tool, mark: document.createComment("") }))
-  const place = () => {
-    for (const { tool, mark } of places) {
-      if (PHONE.matches) {
-        if (mark.parentNode === null) tool.before(mark)
-        menu.append(tool)
-      } else if (mark.parentNode !== null) mark.replaceWith(tool)
-    }
-  }
-  PHONE.addEventListener("change", place)
-  // Wait until the tools are in the bar.
-  queueMicrotask(place)
-}
-
 /** @param {Tool} tool */
 function tool({ name, label = name[0].toUpperCase() + name.slice(1), title, icon: path }) {
   return button(`tool.param-${name}`, () => tell(name), { title, ariaLabel: label, innerHTML: icon(path) },
@@ -91,35 +68,39 @@ function tool({ name, label = name[0].toUpperCase() + name.slice(1), title, icon
 
 /**
  * Render the bar.
- * @param {{first: HTMLElement[], dialogs: Record<string, Dialog>, el: HTMLElement}} part first: the elements before the title;
- *   dialogs: those of the tools that ask, by tool, and others that follow the scene on show
+ * @param {{first: HTMLElement[], dialogs: HTMLElement[], el: HTMLElement}} part first: the elements before the title; dialogs: those
+ *   that the tools open, none without a server
  */
 export function render({ first, dialogs, el }) {
   const heading = element("h1.heading")
-  const offered = TOOLS.filter(({ name, asks }) => !asks || name in dialogs)
-  // Maps a name to [button, description].
-  /** @type {Map<string, [HTMLButtonElement, Tool]>} */
-  const tools = new Map(offered.map((one) => [one.name, [tool(one), one]]))
-  /** @param {"without" | "isDrawn"} property */
-  const those = (property) => [...tools.values()].filter(([, one]) => one[property])
+  const offered = TOOLS.filter(({ asks }) => !asks || dialogs.length > 0)
+  const tools = offered.map((one) => ({ ...one, item: tool(one) }))
+  /** @param {Tool["name"]} name */
+  const itemOf = (name) => tools.find((one) => one.name === name)?.item
   /** @param {Tool["menu"]} menu */
-  const within = (menu) => [...tools.values()].filter(([, one]) => one.menu === menu).map(([item]) => item)
+  const within = (menu) => tools.filter((one) => one.menu === menu).map(({ item }) => item)
   const shared = within("sharing")
   const sharing = menuOf("sharing", "Share", SHARE, shared)
   sharing[0].hidden = shared.length === 0
   const more = menuOf("more", "More", MORE, within("more"))
   const [undo, redo, pin, present] = within(undefined)
-  foldOnPhone([redo, pin, present], more[1])
-  el.append(
-    element("div.tools", ...first, heading, element("span.room"), undo, redo, pin, ...sharing, present, ...more),
-    ...Object.values(dialogs).map(({ box }) => box))
+  const [row, room] = [element("div.tools"), element("span.room")]
+  const place = () => {
+    row.replaceChildren(...first, heading, room, undo, redo, pin, ...sharing, present, ...more)
+    // There is little room on a phone.
+    if (PHONE.matches) more[1].append(redo, pin, present)
+  }
+  PHONE.addEventListener("change", place)
+  place()
+  el.append(row, ...dialogs)
 
-  /** @param {string} name @param {boolean} on */
-  const press = (name, on) => { tools.get(name)[0].ariaPressed = String(on) }
-  press("present", isPresenting())
+  /** @param {HTMLElement} item @param {boolean} on */
+  const press = (item, on) => { item.ariaPressed = String(on) }
+  press(present, isPresenting())
   /** @param {{undo: number, redo: number}} counts */
   const enable = (counts) => {
-    for (const [item, { name, title, without }] of those("without")) {
+    for (const { item, name, title, without } of tools) {
+      if (without === undefined) continue
       item.disabled = counts[/** @type {"undo" | "redo"} */ (name)] === 0
       item.title = item.disabled ? `Disabled: ${without}` : title
     }
@@ -128,19 +109,17 @@ export function render({ first, dialogs, el }) {
   listen({
     // Shows the number of followers.
     room({ code, followers }) {
-      if (!tools.has("invite")) return
-      const [item] = tools.get("invite")
+      const item = itemOf("invite")
+      if (item === undefined) return
       item.querySelector(".label").textContent = code === null ? item.ariaLabel : `${item.ariaLabel} ${followers}`
-      press("invite", code !== null)
+      press(item, code !== null)
     },
-    presenting: (on) => press("present", on),
-    compared: (compared) => press("pin", compared !== null),
+    presenting: (on) => press(present, on),
+    compared: (compared) => press(pin, compared !== null),
     steps: enable,
     enter(scene) {
       heading.textContent = scene.title
-      for (const [item] of those("isDrawn")) item.hidden = !scene.drawn
-      for (const { show } of Object.values(dialogs)) show?.(scene)
+      itemOf("clear").hidden = !scene.drawn
     },
   })
-  for (const [name, [, { asks }]] of tools) if (asks) listen({ [name]: dialogs[name].open })
 }

@@ -20,73 +20,82 @@ function numberOf(text) {
 }
 
 /**
- * Return the line beside a field for the reason why its text is refused, and the function that marks the field; "" removes the mark.
- * @param {HTMLInputElement} field
+ * Return a text box and the line beside it for the reason why its text is refused.  isAsked: whether the server is reading the text.
+ * @param {string} name its class
+ * @param {object} properties see `element`
+ * @param {() => string} shown returns the text of the state on show, to which Escape returns
+ * @param {(event: KeyboardEvent) => boolean} onKey returns whether it has used a key
  */
-export function reasonFor(field) {
+export function textBox(name, properties, shown, onKey = () => false) {
+  const box = element(`input.${name}`, {
+    type: "text", spellcheck: false, ...properties, oninput: () => mark(""),
+    /** @param {KeyboardEvent} event */
+    onkeydown(event) {
+      // The browser itself undoes typing.
+      if ((event.ctrlKey || event.metaKey) && box.value !== shown()) event.stopPropagation()
+      if (event.key === "Escape") own.put(shown())
+      else if (!onKey(event)) return
+      event.preventDefault()
+    },
+  })
   const why = element("p.why", { role: "alert", hidden: true })
   /** @param {string} text */
   const say = (text) => update(why, { textContent: text, hidden: text === "" })
-  return {
-    why, say,
+  /** Mark the text as refused; "" removes the mark. @param {string} text the reason */
+  const mark = (text) => {
+    if (text === "" && box.ariaInvalid !== "true") return
+    box.ariaInvalid = String(text !== "")
+    say(text)
+  }
+  const own = {
+    box, why, say, mark, isAsked: false,
+    isFocused: () => /** @type {ShadowRoot} */ (box.getRootNode()).activeElement === box,
     /** @param {string} text */
-    mark(text) {
-      if (text === "" && field.ariaInvalid !== "true") return
-      field.ariaInvalid = String(text !== "")
-      say(text)
+    put(text) {
+      own.isAsked = false
+      box.value = text
+      mark("")
     },
   }
+  return own
 }
 
 /**
- * Return the box and the functions that fill, mark and disable it.
- * @param {import("./number.js").Controlled} number
+ * A number as its box sees it: value() is the shown value, stepOf() the step of an arrow key; change(value) takes a typed value,
+ * nudge(value) the result of an arrow key.
+ * @typedef {{name: string, symbol: string, help: string, value: () => number, stepOf: () => number,
+ *   change: (value: number) => void, nudge: (value: number) => void}} Controlled
+ */
+
+/**
+ * Return the box of a number, and the functions that fill, mark and disable it.
+ * @param {Controlled} number
  */
 export function exactBox({ name, symbol, help, value, change, nudge, stepOf }) {
-  const box = element("input.exact", {
-    type: "text", inputMode: "decimal", spellcheck: false, title: `${help} ${TYPE}`, ariaLabel: `${symbol}, exact value`,
-    onchange: take, oninput: () => mark(""), onkeydown,
+  const own = textBox("exact", {
+    inputMode: "decimal", title: `${help} ${TYPE}`, ariaLabel: `${symbol}, exact value`, onchange: take,
+  }, () => String(value()), ({ key, shiftKey }) => {
+    if (!(key in STEPS)) return false
+    const typed = numberOf(box.value)
+    nudge((Number.isNaN(typed) ? value() : typed) + STEPS[key] * stepOf() * (shiftKey ? 10 : 1))
+    return true
   })
-  const { why, say, mark } = reasonFor(box)
-  // True while the server evaluates an expression.
-  let isAsked = false
-
-  const isFocused = () => /** @type {ShadowRoot} */ (box.getRootNode()).activeElement === box
-  /** @param {number} shown */
-  const put = (shown) => {
-    isAsked = false
-    box.value = String(shown)
-    mark("")
-  }
+  const { box, why, say, mark } = own
 
   function take() {
-    const text = box.value.trim()
-    const typed = numberOf(text)
-    if (text !== "" && Number.isNaN(typed)) {
-      isAsked = true
-      return tell("expression", { [name]: pointed(text) })
-    }
-    mark(text === "" ? "This is not a number: type one like 1.5, 1e-8 or pi/3." : "")
-    if (text === "") return
+    if (box.value.trim() === "") return mark("This is not a number: type one like 1.5, 1e-8 or pi/3.")
+    const typed = numberOf(box.value)
+    own.isAsked = Number.isNaN(typed)
+    if (own.isAsked) return tell("expression", { [name]: pointed(box.value) })
     if (typed !== value()) change(typed)
     // Compare with the text that the server writes; any other text is still being typed.
     box.value = String(typed)
   }
 
-  /** @param {KeyboardEvent} event */
-  function onkeydown(event) {
-    // The browser undoes typing itself.
-    if ((event.ctrlKey || event.metaKey) && box.value !== String(value())) event.stopPropagation()
-    if (event.key in STEPS) {
-      const typed = numberOf(box.value)
-      nudge((Number.isNaN(typed) ? value() : typed) + STEPS[event.key] * stepOf() * (event.shiftKey ? 10 : 1))
-    } else if (event.key === "Escape") put(value())
-    else return
-    event.preventDefault()
-  }
-
   return {
-    box, put, why,
+    box, why,
+    /** @param {number} shown */
+    put: (shown) => own.put(String(shown)),
     /** Say that the model limits the number; "" removes the sentence. */
     limit: say,
     /**
@@ -96,23 +105,19 @@ export function exactBox({ name, symbol, help, value, change, nudge, stepOf }) {
      * @param {boolean} isIdle
      */
     show(before, shown, isIdle) {
-      if (!isAsked && isFocused() && box.value !== String(before)) return
-      isAsked = false
-      // A disabled box cannot be scrolled, so show only as many digits as fit.
-      box.value = String(isIdle ? Number(shown.toPrecision(6)) : shown)
-      mark("")
+      if (!own.isAsked && own.isFocused() && box.value !== String(before)) return
+      // A disabled box cannot be scrolled: show as many digits as fit.
+      own.put(String(isIdle ? Number(shown.toPrecision(6)) : shown))
     },
     /** Mark an expression that the server refuses. @param {string} sentence */
     refuse(sentence) {
-      if (!isAsked) return
-      isAsked = false
-      mark(sentence)
+      if (own.isAsked) mark(sentence)
+      own.isAsked = false
     },
     /** Disable the box for a reason; "" enables it. @param {string} why */
     rest(why) {
       box.disabled = why !== ""
       box.title = why || `${help} ${TYPE}`
     },
-    forget() { isAsked = false },
   }
 }

@@ -3,7 +3,7 @@
 
 import { listen, tell } from "../base/bus.js"
 import { element } from "../base/elements.js"
-import { reasonFor } from "./box.js"
+import { textBox } from "./box.js"
 import { optionsOf } from "./dialog.js"
 import { number } from "./number.js"
 
@@ -69,39 +69,24 @@ const TYPE = "Press Enter to use it."
  */
 function formula({ name, label, help }) {
   let shown = ""
-  // True while the server reads a typed formula.
-  let isAsked = false
-  const line = element("input.formula", {
-    type: "text", spellcheck: false, autocomplete: "off", title: `${help} ${TYPE}`, maxLength: 200,
-    oninput: () => mark(""),
+  const line = textBox("formula", {
+    autocomplete: "off", title: `${help} ${TYPE}`, maxLength: 200,
     onchange() {
-      isAsked = line.value.trim() !== shown
-      if (isAsked) tell("change", { [name]: line.value.trim() })
+      const typed = line.box.value.trim()
+      line.isAsked = typed !== shown
+      if (line.isAsked) tell("change", { [name]: typed })
     },
-    /** @param {KeyboardEvent} event */
-    onkeydown(event) {
-      if (event.key === "Escape") {
-        line.value = shown
-        mark("")
-      }
-      // The browser undoes typing itself.
-      if ((event.ctrlKey || event.metaKey) && line.value !== shown) event.stopPropagation()
-    },
-  })
-  const { why, mark } = reasonFor(line)
-  const isFocused = () => /** @type {ShadowRoot} */ (line.getRootNode()).activeElement === line
+  }, () => shown)
   /** @param {string} value */
   const show = (value) => {
-    // Keep a refused formula, so that the user can correct it.
-    if (value !== shown || !(isAsked || isFocused())) {
-      line.value = value
-      mark("")
-    }
-    isAsked = false
+    // A formula that was refused stays, to be corrected.
+    if (value !== shown || !(line.isAsked || line.isFocused())) line.put(value)
+    line.isAsked = false
     shown = value
   }
-  const item = element("div", element(`label.menu.param-${name}`, element("span", label), line), why, element("p.text.help", help))
-  return { item, show, refuse: mark }
+  const item = element("div",
+    element(`label.menu.param-${name}`, element("span", label), line.box), line.why, element("p.text.help", help))
+  return { item, show, refuse: line.mark }
 }
 
 /**

@@ -49,7 +49,7 @@ const SAID_FOR = 2000
  * @param {() => string} text
  */
 export function copyButton(name, label, text) {
-  const said = element("span.unseen", { role: "status" })
+  const said = element("output.unseen")
   /** @type {ReturnType<typeof setTimeout>} */
   let timer = null
   /** @param {string} words @param {string} announced */

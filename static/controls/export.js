@@ -20,14 +20,13 @@ const FLAGS = new Set(["black", "grid"])
 /** @typedef {{file?: Blob, why?: string}} Fetched a file, or the reason that there is none */
 
 /**
- * Return the dialog and the functions that open it and set its scene.
+ * Return the dialog.
  * @param {ExportFiles} files
  */
 export function exportDialog(files) {
   const holds = Object.fromEntries(files.formats.map(([kind, , what]) => [kind, what]))
-  const isFilm = () => holds[format.value] === "film"
-  const isFigure = () => holds[format.value] === "figure"
-  const isAll = () => format.value === "html"
+  const content = () => holds[format.value]
+  const isAll = () => content() === "state"
   /** Whether a browser draws the file: this one a PNG, that of the server everything else. @param {Wanted} what */
   const isOfBrowser = ({ picture: name, format: kind }) => (holds[kind] === "film"
     || (holds[kind] === "figure" && scene.pictures.some((one) => one.name === name && one.kind !== "plot")))
@@ -80,10 +79,6 @@ export function exportDialog(files) {
   let controls = {}
   // The status line goes into the metadata of a PNG file.
   let status = ""
-  listen({
-    controls(changed) { Object.assign(controls, changed) },
-    texts(changed) { status = changed.status ?? status },
-  })
   dialog.addEventListener("close", () => running?.abort())
   form.addEventListener("input", write)
   picture.addEventListener("input", writePython)
@@ -107,10 +102,9 @@ export function exportDialog(files) {
 
   function write() {
     one.hidden = isAll()
-    for (const [part, isThere] of /** @type {[HTMLFieldSetElement, boolean][]} */ ([[film, isFilm()], [page, isAll()],
-      [figure, isFigure() || (isFilm() && loop.value === "")]])) {
-      part.hidden = part.disabled = !isThere
-    }
+    film.hidden = film.disabled = content() !== "film"
+    page.hidden = page.disabled = !isAll()
+    figure.hidden = figure.disabled = content() !== "figure" && (film.hidden || loop.value !== "")
     const count = sliders().length
     grid.disabled = count === 0
     const what = wanted()
@@ -185,17 +179,17 @@ export function exportDialog(files) {
     if (why === undefined) saveFile(file, name)
   }
 
-  return {
-    box: dialog,
-    /** @param {SceneDescription} description */
-    show(description) {
+  listen({
+    enter(description) {
       scene = description
       const numbers = scene.controls.filter(({ kind }) => kind === "number")
       moving.put(numbers.map(({ name, label }) => [name, label, false]))
       controls = {}
     },
-    open() {
-      // Use the moment on the screen, because the address bar may lag behind.
+    controls(changed) { Object.assign(controls, changed) },
+    texts(changed) { status = changed.status ?? status },
+    export() {
+      // The file shows the moment on the screen, and the address bar may lag behind it.
       tell("run", null)
       tell("address")
       const open = gallery.openCells()
@@ -207,5 +201,6 @@ export function exportDialog(files) {
       writePython()
       dialog.showModal()
     },
-  }
+  })
+  return dialog
 }

@@ -36,13 +36,6 @@ function scaleOf([own, end], low, high, value) {
 }
 
 /**
- * A number as its parts see it: value() is the shown value, limits() the possible [low, high], stepOf() the step of an arrow
- * key; change(value) takes a typed value, nudge(value) the result of an arrow key, move(value) a position within the limits.
- * @typedef {{name: string, symbol: string, help: string, value: () => number, limits: () => number[], stepOf: () => number,
- *   change: (value: number) => void, nudge: (value: number) => void, move: (value: number) => void}} Controlled
- */
-
-/**
  * Return the control.
  * @param {Extract<ControlDescription, {kind: "number"}>} description
  * @returns {import("./control.js").Control}
@@ -55,45 +48,38 @@ export function number({ name, label, symbol, help, range }) {
   // Slider and box follow, as during a drag.
   /** @param {number} value */
   const take = (value) => {
-    if (value === shown) return
     slider.valueAsNumber = value
+    if (value === shown) return
     exact.put(value)
-    controlled.change(value)
+    change(value)
   }
-  /** @type {Controlled} */
-  const controlled = {
-    name, symbol, help, value: () => shown, limits: () => [low, high], stepOf: () => Number(slider.step) || (high - low) / PARTS,
-    change(value) {
-      shown = value
-      exact.forget()
-      tell("change", { [name]: value })
-    },
-    nudge: (value) => take(tidy(value)), move: (value) => take(within(tidy(value), low, high)),
+  /** @param {number} value */
+  const change = (value) => {
+    shown = value
+    tell("change", { [name]: value })
   }
+  /** @param {number} value */
+  const move = (value) => take(within(tidy(value), low, high))
+  const stepOf = () => Number(slider.step) || (high - low) / PARTS
 
   const title = element("span.label.scrub", { title: help }, label)
   const slider = element("input.hand", {
     type: "range", title: help, ariaLabel: label, ariaDescription: help,
-    oninput() {
-      const value = within(slider.valueAsNumber, low, high)
-      if (value !== slider.valueAsNumber) slider.valueAsNumber = value
-      exact.put(value)
-      controlled.change(value)
-    },
+    oninput: () => take(within(slider.valueAsNumber, low, high)),
     /** @param {KeyboardEvent} event */
     onkeydown(event) {
       const arrow = arrowOf(event)
       if (!event.shiftKey || arrow === undefined) return
-      controlled.move(shown + 10 * (arrow[0] + arrow[1]) * controlled.stepOf())
+      move(shown + 10 * (arrow[0] + arrow[1]) * stepOf())
       event.preventDefault()
     },
   })
-  const exact = exactBox(controlled)
+  const exact = exactBox({ name, symbol, help, stepOf, change, value: () => shown, nudge: (value) => take(tidy(value)) })
   onDrag(title, ({ button, clientX }) => (slider.disabled || button !== 0 ? null : [clientX, shown]),
     ([x, from], { clientX, shiftKey }) => {
-      const step = controlled.stepOf()
+      const step = stepOf()
       const steps = Math.max(1, Math.round((high - low) / FULL_DRAG / step)) * (shiftKey ? 10 : 1)
-      controlled.move(from + Math.round(clientX - x) * steps * step)
+      move(from + Math.round(clientX - x) * steps * step)
     })
   const frame = element(`div.number.param-${name}`, title, exact.box, slider, exact.why)
 

@@ -1,6 +1,9 @@
 // @ts-check
 // The player: play, pause, step, speed, and the time slider.  It interpolates the moving point from the samples of the orbit
 // on the page, so playing sends no requests.  It tells "time" and fills the sources of single points.
+//
+// It plays a scene slowly when it has first been drawn whole, so that newcomers see what moves; but not if the user prefers reduced
+// motion, in an embedded page, at a moment that a link names, or in a lesson beside all pictures.
 
 import { button, element, icon, relabel } from "../base/elements.js"
 import { listen, tell } from "../base/bus.js"
@@ -8,8 +11,7 @@ import { arrowOf, isTaken } from "../base/keys.js"
 import { within } from "../base/numbers.js"
 import { gallery } from "../pictures/gallery.js"
 import { stateAt } from "../pictures/moment.js"
-import { CALM } from "../base/windows.js"
-import { opening } from "./opening.js"
+import { CALM, isEmbedded } from "../base/modes.js"
 
 const SPEEDS = [0.25, 0.5, 1, 2, 4, 8]
 // Shortest duration of the first playing, in seconds.
@@ -59,9 +61,16 @@ export function render({ el }) {
   // The animation of a lesson.
   /** @type {PageEvents["run"]} */
   let run = null
-  // Units of t per second of the first playing, see "opening.js"; else null.
+  // Units of t per second of the first playing; else null.
   /** @type {number | null} */
   let gentle = null
+  // Scenes that were played.
+  const begun = new Set()
+  let isWaiting = false
+  // Motion takes the time of the browser, and on some machines that of the computation.
+  let isComputing = false
+  let isReading = false
+  let isAlone = false
 
   const end = () => source?.data.t?.at(-1) ?? 0
   function writeTime() { tell("url", { t: t.toFixed(3) }) }
@@ -130,14 +139,12 @@ export function render({ el }) {
   document.addEventListener("keyup", (event) => {
     if (event.key === " " && !isTaken(event) && !toggle.hidden) event.preventDefault()
   })
-  const start = opening({
-    begin() {
-      if (playing || end() === 0) return
-      gentle = Math.min(Number(speed.value), end() / GENTLE)
-      play(true)
-    },
-    end() { if (gentle !== null) play(false) },
-  })
+
+  function playGently() {
+    if (playing || end() === 0) return
+    gentle = Math.min(Number(speed.value), end() / GENTLE)
+    play(true)
+  }
 
   const onData = () => {
     slider.max = String(end())
@@ -160,7 +167,14 @@ export function render({ el }) {
     pick({ pick: [picture], drag }) { isStarting ||= !drag && scene.pictures.some(({ name, starts }) => name === picture && starts) },
     // An example starts at its initial time.
     preset() { move(0) },
+    alone(names) { isAlone = names.length > 0 },
+    reading(on) { isReading = on },
+    progress(progress) { isComputing = progress !== null },
     painted() {
+      if (!isComputing) {
+        if (isWaiting && (isAlone || !isReading)) playGently()
+        isWaiting = false
+      }
       if (!isStarting) return
       isStarting = false
       move(0)
@@ -170,12 +184,14 @@ export function render({ el }) {
     scene() { if (playing) play(false) },
     client(own) {
       t = Number(own.t)
-      // A link with a time shows the motion at this time.
-      if (t !== 0) start.rest()
       speed.value = String(SPEEDS.includes(Number(own.speed)) ? Number(own.speed) : 1)
     },
     enter(entered) {
-      start.enter(entered.name)
+      if (gentle !== null) play(false)
+      // A link with a time shows that moment.
+      const isMoment = begun.size === 0 && t !== 0
+      isWaiting = !isMoment && !begun.has(entered.name) && !CALM.matches && !isEmbedded
+      begun.add(entered.name)
       scene = entered
       source = gallery.source("data-orbit") ?? null
       // A scene without a motion has no player.

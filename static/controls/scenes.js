@@ -3,7 +3,7 @@
 // for the scene under the mouse or focus, so that its pictures are built in advance.
 
 import { button, element } from "../base/elements.js"
-import { tell } from "../base/bus.js"
+import { listen, tell } from "../base/bus.js"
 import { dialogOf, section } from "./dialog.js"
 
 const REST = 60
@@ -38,7 +38,7 @@ function neighbour(tiles, tile, key) {
   return others.find((other) => Math.abs(other.getBoundingClientRect().left - left) < width / 2)
 }
 
-/** Return the dialog and the functions that open it and set the scene on show. @param {SceneTile[]} scenes */
+/** Return the dialog and the function that opens it. @param {SceneTile[]} scenes */
 export function sceneMenu(scenes) {
   let here = ""
   const search = element("input.search", { type: "search", ariaLabel: "Search scenes", placeholder: "Search", oninput: filter })
@@ -95,8 +95,9 @@ export function sceneMenu(scenes) {
     event.preventDefault()
   })
 
+  listen({ enter({ name }) { here = name } })
   return {
-    box: dialog,
+    dialog,
     open() {
       // The theme may have changed.
       fill()
@@ -104,11 +105,6 @@ export function sceneMenu(scenes) {
       filter()
       dialog.showModal()
       tiles().find((tile) => tile.ariaPressed === "true")?.focus()
-    },
-    /** @param {SceneDescription} scene */
-    show({ name }) {
-      here = name
-      fill()
     },
   }
 }

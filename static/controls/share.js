@@ -1,10 +1,10 @@
 // @ts-check
-// The dialog Share: the link, its QR code, and HTML that embeds parts of the page in another page.
+// The dialog Share: the link, its QR code, and HTML that embeds parts of the page in another page; and the dialog Invite: QR code and
+// address by which an audience follows, and how many do.
 
-import { element } from "../base/elements.js"
-import { tell } from "../base/bus.js"
+import { button, element } from "../base/elements.js"
+import { listen, tell } from "../base/bus.js"
 import { linkTo } from "../base/embedding.js"
-import { qrCode } from "./qr.js"
 import { gallery } from "../pictures/gallery.js"
 import { isFolded, labelOf, nameOf } from "../pictures/picture.js"
 import { choices, copyButton, dialogOf, section, snippet } from "./dialog.js"
@@ -22,14 +22,37 @@ const heightOf = ({ pictures, controls }) => (
 /** @param {string} text */
 const escaped = (text) => text.replaceAll("&", "&amp;").replaceAll('"', "&quot;").replaceAll("<", "&lt;")
 
-/** Return the dialog and the functions that open it and set its scene. */
+/**
+ * Return an image of a QR code, and the function that draws the code of a link in it and returns why there is none, or "".
+ * @param {string} ariaLabel
+ */
+function qrCode(ariaLabel) {
+  const code = element("div.code", { role: "img", ariaLabel })
+  /** @param {string} link "" for none */
+  async function draw(link) {
+    code.replaceChildren()
+    if (link === "") return ""
+    try {
+      const response = await fetch(new URL(`qr.svg?text=${encodeURIComponent(link)}`, document.baseURI))
+      const text = await response.text()
+      if (!response.ok) return text
+      code.innerHTML = text
+      return ""
+    } catch {
+      return "The server does not answer: no QR code."
+    }
+  }
+  return { code, draw }
+}
+
+/** Return the dialog Share. */
 export function shareDialog() {
   /** @type {SceneDescription | null} */
   let scene = null
   const link = element("input.address", {
     type: "text", readOnly: true, ariaLabel: "Link", onfocus: () => link.select(),
   })
-  const code = element("div.code", { role: "img", ariaLabel: "QR code of the link" })
+  const { code, draw } = qrCode("QR code of the link")
   const why = element("p.why", { role: "status" })
   const html = snippet("HTML to embed", 4)
   const write = () => {
@@ -49,23 +72,59 @@ export function shareDialog() {
     section("Link", "This state of the page", link, copyLink, code, why),
     section("Embed", "Parts of this page in a page of yours", pictures.frame, controls.frame, html, copyHtml)))
 
-  return {
-    box: dialog,
-    /** @param {SceneDescription} description */
-    show(description) { scene = description },
-    async open() {
+  listen({
+    enter(description) { scene = description },
+    async share() {
       tell("address")
       link.value = linkTo()
       pictures.put(gallery.shown.cells.map((cell) => [nameOf(cell), labelOf(cell), !isFolded(cell)]))
       controls.put(scene.controls.map(({ name, label }) => [name, label, scene.essential.includes(name)]))
       write()
-      code.replaceChildren()
       why.textContent = ""
       dialog.showModal()
-      const { svg, said } = await qrCode(link.value)
-      code.innerHTML = svg
-      code.hidden = svg === ""
-      why.textContent = said
+      why.textContent = await draw(link.value)
+      code.hidden = why.textContent !== ""
     },
+  })
+  return dialog
+}
+
+/** Return the dialog Invite, which opens with the room. */
+export function inviteDialog() {
+  const { code, draw } = qrCode("QR code of the address")
+  const scan = element("p", { hidden: true }, "Scan the code, or open")
+  const address = element("p.room-address")
+  const count = element("p.room-count", { role: "status" })
+  const unreachable = element("p.unreachable", { hidden: true }, "Phones cannot reach this address. Start the explorer with " +
+    "--address 0.0.0.0, and open the page by the name of this computer in its network.")
+  const end = button("button.param-end-room", () => tell("end-room"), "End the lecture")
+  const dialog = dialogOf("Invite", "menu-of-scenes.invite", [], element("div.invitation",
+    code, element("div", scan, address, unreachable, count,
+      element("p.small", "Phones show your scene, state, picture and lesson step, and take guesses. No names are collected, and " +
+        "nothing is kept when the lecture ends."), end)))
+  let drawn = ""
+
+  /** @param {string} link */
+  async function show(link) {
+    if (link === drawn) return
+    drawn = link
+    const [, host, path] = /^https?:\/\/(.*)(\/r\/.*)$/.exec(link) ?? ["", "", ""]
+    unreachable.hidden = !/^(localhost|127\.|\[::1\])/.test(host)
+    address.replaceChildren(host, element("wbr"), element("span", path))
+    const why = await draw(link)
+    if (why !== "") count.textContent = why
   }
+
+  listen({
+    room({ code: name, address: link, followers, said }) {
+      scan.hidden = end.hidden = name === null
+      count.textContent = name === null ? said : `${followers} follower${followers === 1 ? "" : "s"}`
+      show(link)
+    },
+    invite() {
+      tell("open-room")
+      dialog.showModal()
+    },
+  })
+  return dialog
 }

@@ -3,12 +3,10 @@
 // the same events, so that each follows the other.  A number in the text that can be dragged is the label of such a control.
 
 import { listen } from "../base/bus.js"
-import { isEmbedded } from "../base/embedding.js"
 import { element } from "../base/elements.js"
 import { arrowOf } from "../base/keys.js"
 import { written } from "../base/numbers.js"
-import { isPresenting } from "../base/presenting.js"
-import { NARROW, PHONE } from "../base/windows.js"
+import { isEmbedded, isPresenting, NARROW, PHONE } from "../base/modes.js"
 import { control, followers } from "./control.js"
 
 const DIGITS = 4
@@ -21,8 +19,8 @@ export function stepControls() {
   /** @type {HTMLButtonElement[]} */
   let words = []
   let isAlone = false
-  // No controls are needed here if the column of controls is beside the text.
-  const isColumnAway = () => NARROW.matches || PHONE.matches || isPresenting() || isEmbedded() || isAlone
+  // Where the column of controls is beside the text, it is enough.
+  const isColumnAway = () => NARROW.matches || PHONE.matches || isPresenting() || isEmbedded || isAlone
   /** @type {ControlDescription[]} */
   let known = []
   const [put, putWords] = [followers(), followers()]
@@ -74,7 +72,6 @@ export function stepControls() {
       build()
     },
     presenting: build,
-    embedding: build,
     alone(pictures) {
       isAlone = pictures.length > 0
       build()

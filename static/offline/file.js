@@ -46,7 +46,7 @@ function start() {
   root.append(el)
   const mount = createMount(sheets)
   buildPage(model, { mark: "#", connect: connectTo(createRecorded(recording, stripAt, query)), answering: () => new Promise(() => {}) }, {
-    mount, bar: [mount("bar", renderBar, { first: [opener("a.tool.home", "Explorer")], dialogs: {} })],
+    mount, bar: [mount("bar", renderBar, { first: [opener("a.tool.home", "Explorer")], dialogs: [] })],
     lessons: { index: Object.values(recording.lessons).map(({ name, title, minutes }) => ({ name, title, minutes })) },
     styles: stylesOf(sheets, FRAME),
   }, el)

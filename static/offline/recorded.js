@@ -14,15 +14,15 @@
  *   scenes: Record<string, SceneDescription>, lessons: Record<string, Lesson>}} Recording
  */
 
+import { written } from "../base/numbers.js"
+
 const ABSENT = "This file does not contain that state: open the explorer by the link at the top."
 const PLAIN = "Type a plain number: expressions need the explorer."
 const NEAREST = "This file contains only some states: the nearest one is shown."
 
-// If the steps of a slider went a little beyond its end, the slider could not reach the end.
+const DIGITS = 6
+// A slider whose steps reach a little beyond its end could not reach the end.
 const BELOW = 1 - 1e-9
-
-/** @param {number} value */
-const shown = (value) => String(Number(value.toPrecision(6))).replace("-", "−")
 
 /**
  * Return the point of a family that is nearest to a change: first in the changed parameters, then in the others.
@@ -105,7 +105,7 @@ export function createRecorded({ families, picks, sources, steps, scenes, lesson
     at = nearestPoint(family, at, changes)
     const back = family.names.filter((name, i) => !(name in changes) && family.points[at][i] !== before[i])
     if (back.length > 0) {
-      const values = back.map((name) => `${symbolOf(name)} is ${shown(family.points[at][family.names.indexOf(name)])} again`)
+      const values = back.map((name) => `${symbolOf(name)} is ${written(family.points[at][family.names.indexOf(name)], DIGITS)} again`)
       note = `${values.join(", ")}: this file moves one slider at a time.`
     }
   }

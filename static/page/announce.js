@@ -6,7 +6,7 @@ import { captionOf, nameOf } from "../pictures/picture.js"
 import { element } from "../base/elements.js"
 import { listen } from "../base/bus.js"
 import { written } from "../base/numbers.js"
-import { byHand } from "../base/windows.js"
+import { byHand } from "../base/modes.js"
 
 // Milliseconds without a new state after which the user counts as idle.
 const REST = 700

@@ -9,17 +9,15 @@ import { gallery } from "../pictures/gallery.js"
 import { createAddress } from "./address.js"
 import { listen, tell } from "../base/bus.js"
 import { createCompare } from "./compare.js"
-import { embed, embedded } from "../base/embedding.js"
+import { embedded } from "../base/embedding.js"
 import { createHistory } from "./history.js"
-import { joinOther } from "../controls/beside.js"
+import { joinOther } from "../controls/comparison.js"
 import { fill, paint, setAxes, shareAxes } from "./painting.js"
-import { present } from "../base/presenting.js"
-import { handlePrinting } from "./printing.js"
+import { isEmbedded, present } from "../base/modes.js"
 import { createRequests } from "./requests.js"
 import { tabStore } from "../base/stores.js"
-import { setTheme } from "./theme.js"
 import { createVisibility } from "./visibility.js"
-import { handleCommands } from "./commands.js"
+import { handleCommands, handlePrinting, setTheme } from "./commands.js"
 import { isFirstVisit } from "./lessons.js"
 
 // The next part of a state is requested after a pause as long as the last part took: half of the time is left to the user,
@@ -50,26 +48,25 @@ export function startClient(model, host) {
   let more = null
   // Time when the last new part of the state was painted.
   let news = 0
-  // All data that the server has sent for the current scene.
-  /** @type {{scene: SceneDescription | null, texts: Texts, controls: Record<string, ControlValue>}} */
-  let latest = { scene: null, texts: {}, controls: {} }
+  // The description of the scene on show, and its derived numbers.
+  /** @type {SceneDescription | null} */
+  let entered = null
+  let derived = ""
   root.dataset.ready = "false"
   root.dataset.state = "0"
   present(own.present === "1")
-  const isPart = own.embed === "1"
-  if (isPart) embed()
 
   // The tab keeps the undo history and the changes without an answer until the same link is opened again; those of each part
   // by themselves, without a history.
-  const key = isPart ? `page${location.search}` : "page"
+  const key = isEmbedded ? `page${location.search}` : "page"
   const kept = JSON.parse(tabStore.get(key) ?? "{}")
   const { steps, unanswered = null } = kept.href === location.href ? kept : {}
   window.addEventListener("pagehide", () => {
     const isBehind = requests.isBehind(state?.answers ?? 0)
     const left = {
-      href: location.href, steps: isPart ? undefined : history.steps, unanswered: isBehind ? requests.unanswered : undefined,
+      href: location.href, steps: isEmbedded ? undefined : history.steps, unanswered: isBehind ? requests.unanswered : undefined,
     }
-    tabStore.set(key, isPart && !isBehind ? null : JSON.stringify(left))
+    tabStore.set(key, isEmbedded && !isBehind ? null : JSON.stringify(left))
   })
 
   /** @type {ReturnType<Host["connect"]>} */
@@ -79,7 +76,7 @@ export function startClient(model, host) {
   const requests = createRequests({
     send: (message) => send(message),
     changed: () => { root.dataset.ready = "false" },
-    hidden: () => [...visibility.hidden(), ...(latest.scene.absent ?? [])],
+    hidden: () => [...visibility.hidden(), ...(entered.absent ?? [])],
     known: (name) => descriptions.has(name),
   })
 
@@ -87,9 +84,7 @@ export function startClient(model, host) {
     query: () => state.query, isSettled: () => state !== null && !requests.isBehind(state.answers), address,
   }, steps)
 
-  const compare = createCompare(() => ({
-    query: state.query, scene: latest.scene, derived: latest.texts.derived ?? "",
-  }))
+  const compare = createCompare(() => ({ query: state.query, scene: entered, derived }))
 
   handleCommands(address)
   joinOther()
@@ -118,11 +113,8 @@ export function startClient(model, host) {
   /** Fill pictures, texts and controls with a state. @param {StateAnswer} answer @param {ArrayBuffer} block */
   const fillAll = ({ tree, answers }, block) => {
     fill(scene, tree, block)
-    Object.assign(latest.texts, tree.texts)
-    Object.assign(latest.controls, tree.controls)
-    tell("texts", tree.texts)
-    tell("captions", tree.captions)
-    // Controls that were moved after the request keep their values.
+    derived = tree.texts.derived ?? derived
+    // Controls that were moved since the request keep their values.
     tell("controls", Object.fromEntries(
       Object.entries(tree.controls).filter(([name]) => !requests.hasMoved(name, answers))))
   }
@@ -130,12 +122,13 @@ export function startClient(model, host) {
   /** @param {string} name */
   const enter = (name) => {
     scene = gallery.enter(name)
-    latest = { scene: descriptions.get(name), texts: {}, controls: {} }
+    entered = descriptions.get(name)
+    derived = ""
     visibility.watch(scene.cells)
     requests.entered(name)
     root.dataset.scene = name
-    document.title = `Hess Explorer · ${latest.scene.title}`
-    tell("enter", latest.scene)
+    document.title = `Hess Explorer · ${entered.title}`
+    tell("enter", entered)
   }
 
   /** @param {StateAnswer} next @param {ArrayBuffer} block */
@@ -204,7 +197,7 @@ export function startClient(model, host) {
    * @param {ArrayBuffer} block
    */
   const onState = (next, described, block) => {
-    const description = described !== null && isPart ? embedded(described, own) : described
+    const description = described !== null && isEmbedded ? embedded(described, own) : described
     if (description !== null) descriptions.set(description.name, description)
     arriving = arriving.then(async () => {
       await build(descriptions.get(next.scene), () => sketch(next, block))

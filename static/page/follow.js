@@ -4,10 +4,9 @@
 
 import { render as renderPictures, gallery } from "../pictures/gallery.js"
 import { createGuess } from "../pictures/guess.js"
-import { lightNames } from "../pictures/named.js"
-import { createVeil } from "../pictures/veil.js"
+import { createVeil, lightNames } from "../pictures/layers.js"
 import { listen, tell } from "../base/bus.js"
-import { element } from "../base/elements.js"
+import { element, say } from "../base/elements.js"
 import { createMount } from "./mount.js"
 import { fill, paint } from "./painting.js"
 import { atMost, followed, newName, openRoom } from "./room_socket.js"
@@ -40,10 +39,7 @@ function renderStep({ el }) {
       question.innerHTML = step.question
       question.hidden = step.question === ""
     },
-    audience(sentence) {
-      said.textContent = sentence
-      said.hidden = sentence === ""
-    },
+    audience: (sentence) => say(said, sentence),
   })
 }
 
@@ -116,8 +112,6 @@ function start() {
       for (const [source, data] of empty.get(state.scene)) {
         if (!(source in state.tree.sources)) scene.sources.get(source).put(data)
       }
-      tell("texts", state.tree.texts)
-      tell("captions", state.tree.captions)
     })
     tell("painted")
     heading.textContent = document.title = show.scene

@@ -7,16 +7,14 @@
 import { stepControls } from "../controls/step_controls.js"
 import { gallery } from "../pictures/gallery.js"
 import { createGuess } from "../pictures/guess.js"
-import { lightNames } from "../pictures/named.js"
-import { createVeil } from "../pictures/veil.js"
+import { createVeil, lightNames } from "../pictures/layers.js"
 import { createAnimation } from "./animation.js"
 import { listen, tell } from "../base/bus.js"
-import { isEmbedded } from "../base/embedding.js"
 import { onKeys } from "../base/keys.js"
-import { button, element } from "../base/elements.js"
+import { button, element, say } from "../base/elements.js"
 import { browserStore } from "../base/stores.js"
 import { within } from "../base/numbers.js"
-import { byHand, CALM } from "../base/windows.js"
+import { byHand, CALM, isEmbedded } from "../base/modes.js"
 
 // One turn of the mouse wheel is one step.
 const PAUSE = 700
@@ -52,6 +50,7 @@ const questionOf = ({ question, answer }) => (question === "" ? [] : [
 export function render({ index, record, el }) {
   const menu = element("details.lesson-menu", { hidden: index.length === 0 })
   const panel = element("section.lesson", { hidden: true, ariaLabel: "Lesson" })
+  const audience = element("output.audience")
   const tries = element("section.tries", { hidden: true, ariaLabel: "Try this" })
   const controls = stepControls()
   const veil = createVeil()
@@ -109,7 +108,7 @@ export function render({ index, record, el }) {
     const isLast = at === lesson.steps.length - 1
     const isAlone = step.pictures.length > 0
     const [said, buttons] = [element("output.said"), element("div.row")]
-    const audience = element("output.audience", { hidden: true })
+    say(audience, "")
     if (prediction) {
       guess = createGuess(prediction, (text) => { said.textContent = text })
       revealing = button("button.param-reveal", reveal, "Reveal")
@@ -133,9 +132,9 @@ export function render({ index, record, el }) {
         button("button.param-next-step", next, {
           disabled: isLast && !isAlone, title: isLast && !isAlone ? "Disabled: this is the last step" : "Next (Page Down)",
         }, !isAlone ? "Next" : isLast ? "The whole page" : "Go on ↓"),
-        ...(isEmbedded() ? [] : [isAlone
-          ? button("button.param-leave-lesson", leave, { title: "Show the whole page (Esc)" }, "Skip")
-          : button("button.param-leave-lesson", leave, { title: "Leave the lesson" }, "Leave")]),
+        button("button.param-leave-lesson", leave, {
+          hidden: isEmbedded, title: isAlone ? "Show the whole page (Esc)" : "Leave the lesson",
+        }, isAlone ? "Skip" : "Leave"),
         element("div.where", progress, element("span.count", `${at + 1} / ${lesson.steps.length}`)))))
     controls.fill(step.controls, panel.querySelectorAll("button.drag"))
     said.hidden = guess === null
@@ -280,13 +279,7 @@ export function render({ index, record, el }) {
       // Run after all parts of the page know the scene, and before it is painted.
       queueMicrotask(() => { if (expected !== null) arrange(expected) })
     },
-    audience(text) {
-      /** @type {HTMLElement | null} */
-      const output = panel.querySelector(".audience")
-      if (output === null) return
-      output.textContent = text
-      output.hidden = text === ""
-    },
+    audience: (text) => say(audience, text),
     painted() {
       const then = arriving
       arriving = null

@@ -2,8 +2,7 @@
 // Mounts the parts of the page.
 
 import { element } from "../base/elements.js"
-import { wear } from "../base/presenting.js"
-import { sized } from "../base/windows.js"
+import { sized, wear } from "../base/modes.js"
 
 // Style sheets of the frame around the parts.
 export const FRAME = ["base/base.css", "page/shell.css"]

@@ -39,16 +39,18 @@ export function shareAxes(shown) {
 }
 
 /**
- * Set the axes and data of a scene from a state.
+ * Set the axes, data and words of a scene from a state.
  * @param {Scene} scene
  * @param {Tree} tree
  * @param {ArrayBuffer} block
  */
-export function fill(scene, { ranges, sources }, block) {
+export function fill(scene, { ranges, sources, texts, captions }, block) {
   Object.assign(scene.ranges, ranges)
   setAxes(scene, Object.keys(ranges))
   tell("axes", { name: scene.name, ranges: scene.ranges })
   for (const [name, columns] of unpack(sources, block)) scene.source(name).put(columns)
+  tell("texts", texts)
+  tell("captions", captions)
 }
 
 /**

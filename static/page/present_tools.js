@@ -4,7 +4,7 @@
 import { listen, tell } from "../base/bus.js"
 import { button, element, icon } from "../base/elements.js"
 import { onKeys } from "../base/keys.js"
-import { isPresenting } from "../base/presenting.js"
+import { isPresenting } from "../base/modes.js"
 
 const REST = 3000
 const SLIDERS = "M4 8h16M4 16h16M15 5v6M9 13v6"

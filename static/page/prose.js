@@ -5,14 +5,14 @@
 import { listen } from "../base/bus.js"
 import { element, update } from "../base/elements.js"
 import { browserStore } from "../base/stores.js"
-import { byHand } from "../base/windows.js"
+import { byHand } from "../base/modes.js"
 
 /** @type {[value: string, text: string][]} */
 const DEPTHS = [["idea", "Idea"], ["student", "What you see"], ["paper", "With equations"]]
 const ALL = "paper"
 
 /**
- * Return the menu of depths, and the function that hides what is deeper in a new text.
+ * Return the menu of depths of a text.
  * @param {HTMLElement} text its first section is what one sees, its first paragraph the idea
  */
 function depthMenu(text) {
@@ -25,17 +25,11 @@ function depthMenu(text) {
   }, ...DEPTHS.map(([value, words]) => new Option(words, value)))
   select.value = DEPTHS.find(([value]) => value === browserStore.get("depth"))?.[0] ?? ALL
 
-  function follow() {
-    const parts = /** @type {HTMLElement[]} */ ([...text.children])
-    const headings = parts.filter(({ tagName }) => tagName === "H2" || tagName === "H3")
-    const idea = [headings[0], parts.find(({ tagName }) => tagName === "P")]
-    const second = parts.indexOf(headings[1])
-    parts.forEach((part, i) => {
-      part.hidden = select.value === "idea" ? !idea.includes(part) : select.value === "student" && second >= 0 && i >= second
-    })
-  }
+  // See "page.css".
+  function follow() { text.dataset.depth = select.value }
 
-  return { menu: element("label.depth", select), follow }
+  follow()
+  return element("label.depth", select)
 }
 
 /**
@@ -63,16 +57,13 @@ export function render({ part, el }) {
       wide.ariaLabel = wide.tabIndex < 0 ? null : wide.matches("table") ? "Table" : "Formula"
     }
   }).observe(item)
-  const depth = part === "words" ? depthMenu(item) : null
+  const menu = part === "words" ? depthMenu(item) : null
   listen({
-    enter(scene) {
-      item.innerHTML = byHand(scene[part])
-      depth?.follow()
-    },
+    enter(scene) { item.innerHTML = byHand(scene[part]) },
     texts({ signs }) { if (signs !== undefined) showSigns(item, signs) },
-    // A lesson replaces the text of the scene.
-    reading(on) { if (depth !== null) item.hidden = depth.menu.hidden = on },
+    // A lesson takes the place of the words.
+    reading(on) { if (menu !== null) item.hidden = menu.hidden = on },
   })
-  if (depth !== null) el.append(depth.menu)
+  if (menu !== null) el.append(menu)
   el.append(item)
 }

@@ -101,6 +101,11 @@ export function createRequests({ send, changed, hidden, known }) {
     pending = merged(pending, what)
     request()
   }
+  /** @param {object} controls by name @param {Partial<StateRequest>} what */
+  const move = (controls, what) => {
+    for (const name of Object.keys(controls)) moved.set(name, requested + 1)
+    want(what)
+  }
   // For fields that do not change the state.
   /** @param {Partial<StateRequest>} what */
   const add = (what) => {
@@ -129,14 +134,8 @@ export function createRequests({ send, changed, hidden, known }) {
     }, { capture: true })
   }
   listen({
-    change(values) {
-      for (const name of Object.keys(values)) moved.set(name, requested + 1)
-      want({ values })
-    },
-    expression(expressions) {
-      for (const name of Object.keys(expressions)) moved.set(name, requested + 1)
-      want({ expressions })
-    },
+    change: (values) => move(values, { values }),
+    expression: (expressions) => move(expressions, { expressions }),
     preset: (preset) => restart({ preset }),
     reset: () => restart({ reset: true }),
     clear: () => restart({ clear: true }),
@@ -152,7 +151,7 @@ export function createRequests({ send, changed, hidden, known }) {
     lesson: (lesson) => want({ lesson }),
     stop: () => want({ stop: true }),
     pick({ pick }) {
-      if (Array.isArray(pick) && pick.slice(1).every(Number.isFinite)) want({ picked: pick })
+      if (pick.slice(1).every(Number.isFinite)) want({ picked: pick })
     },
     hover(point) {
       // A finger covers the point, and does not leave it when it is lifted.

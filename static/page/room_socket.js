@@ -10,7 +10,7 @@ const FIRST_OF_OURS = 4000
 const FULL = 1013
 // A device that slept longer than this reconnects: its connection may be dead without its knowledge.
 const SLEEP = 20_000
-const PAUSE = 1000
+const PAUSE = 250
 const FOLLOWED = "followed-room"
 
 const CODE = /^[2-9A-HJ-NP-Z]{6}$/
@@ -95,7 +95,7 @@ export function openRoom(code, { first, receive, connected = () => {}, ended }) 
  * @template Argument
  * @param {(argument: Argument) => void} act
  */
-export function atMost(act, pause = PAUSE / 4) {
+export function atMost(act) {
   /** @type {ReturnType<typeof setTimeout>} */
   let timer = null
   /** @type {{argument: Argument} | null} */
@@ -105,7 +105,7 @@ export function atMost(act, pause = PAUSE / 4) {
     if (waiting === null) return
     const { argument } = waiting
     waiting = null
-    timer = setTimeout(next, pause)
+    timer = setTimeout(next, PAUSE)
     act(argument)
   }
   return (/** @type {Argument} */ argument) => {

@@ -3,10 +3,10 @@
 
 import { render as renderBar } from "../controls/bar.js"
 import { exportDialog } from "../controls/export.js"
-import { inviteDialog } from "../controls/invite.js"
 import { sceneMenu } from "../controls/scenes.js"
-import { shareDialog } from "../controls/share.js"
+import { inviteDialog, shareDialog } from "../controls/share.js"
 import { button, element, icon } from "../base/elements.js"
+import { isEmbedded } from "../base/modes.js"
 import { createMount, FRAME, stylesOf } from "./mount.js"
 import { recording } from "./recording.js"
 import { createRoom } from "./room.js"
@@ -16,10 +16,10 @@ import { answering, openWebsocket } from "./websocket.js"
 
 const MENU = "M4 7h16M4 12h16M4 17h16"
 
-/** Return the link back to the lecture that this tab has left to play on its own. @param {ClientKeys} own */
-function rejoin({ embed }) {
+/** Return the link back to the lecture that this tab has left to play on its own. */
+function rejoin() {
   const { code } = followed
-  return code === null || embed === "1" ? [] : [element("a.rejoin", { href: `r/${code}` }, "Back to the lecture")]
+  return code === null || isEmbedded ? [] : [element("a.rejoin", { href: `r/${code}` }, "Back to the lecture")]
 }
 
 /** @type {HTMLElement | null} */
@@ -32,15 +32,15 @@ let built = null
 export function render({ model, el }) {
   if (built !== null) return el.replaceWith(built)
   built = el
-  const { client, lessons: index, scenes, files, sheets } = model
+  const { lessons: index, scenes, files, sheets } = model
   const mount = createMount(sheets)
   const menu = sceneMenu(scenes)
-  const dialogs = { menu, share: shareDialog(), invite: inviteDialog(), export: exportDialog(files) }
+  const dialogs = [menu.dialog, shareDialog(), inviteDialog(), exportDialog(files)]
   const first = [button("tool.param-scenes", menu.open, { title: "Choose a scene", ariaHasPopup: "dialog", innerHTML: icon(MENU) },
     element("span", "Scenes"))]
   const { query } = buildPage(model, { mark: "?", connect: openWebsocket, answering }, {
-    mount, bar: [mount("bar", renderBar, { first, dialogs }), ...rejoin(client)],
+    mount, bar: [mount("bar", renderBar, { first, dialogs }), ...rejoin()],
     lessons: { index, record: recording() }, styles: stylesOf(sheets, FRAME),
   }, el)
-  if (client.embed !== "1") createRoom({ query })
+  if (!isEmbedded) createRoom({ query })
 }

@@ -13,14 +13,11 @@ import { linkTo } from "../base/embedding.js"
 import { button, element, update } from "../base/elements.js"
 import { arrowOf, onKeys } from "../base/keys.js"
 import { render as renderLessons } from "./lessons.js"
-import { wear } from "../base/presenting.js"
+import { renderProgress, renderStatus, renderText } from "./lines.js"
+import { NARROW, PHONE, ROOMY, wear } from "../base/modes.js"
 import { drawer, spot } from "./present_tools.js"
-import { render as renderProgress } from "./progress.js"
 import { render as renderProse } from "./prose.js"
-import { render as renderStatus } from "./status.js"
-import { render as renderText } from "./text.js"
 import { browserStore } from "../base/stores.js"
-import { NARROW, PHONE, ROOMY } from "../base/windows.js"
 
 /** Return the tabs of the columns. @param {Record<string, HTMLElement>} columns label → column */
 function tabsOf(columns) {
@@ -58,8 +55,8 @@ function tabsOf(columns) {
   choose(tabs[0][0])
   follow()
   listen({
-    // Scroll to the beginning of a lesson.
-    reading(on) { if (on) choose(tabs.find(([, column]) => column.id === "text")[0]) },
+    // The text of a lesson, at its start.
+    reading(on) { if (on) choose(tabs[1][0]) },
     // Pictures that are shown alone leave the columns as the page opens with them.
     alone(names) { if (names.length > 0) choose(tabs[0][0]) },
   })

@@ -88,21 +88,26 @@ function layout(viewport, leading, rest, names) {
   const { width, height, gap, head, least } = viewport
   // If most pictures lead, the others may be equally large.
   const largest = leading > rest ? 1 : LARGEST
-  let best = { worth: -Infinity, lead: { columns: 1, edge: 0 }, isBeside: false, isColumn: false, strip: { columns: 1, edge: 0 } }
+  /** @param {number} columns of the lead @param {number} edge @param {boolean[]} way see `WAYS` */
+  const option = (columns, edge, [isBeside, isColumn]) => {
+    const lead = sizeOf(leading, columns, edge, head, gap)
+    const room = isBeside ? { width: width - lead.width - gap, height } : { width, height: height - lead.height - gap }
+    const taken = namesIn(room.width, names, isColumn, viewport)
+    const left = { width: room.width - taken.width, height: room.height - taken.height }
+    const found = stripIn(left, rest, viewport)
+    const strip = { ...found, edge: Math.min(found.edge, Math.floor(largest * edge)) }
+    const isSeen = rest === 0 ? left.height >= 0 && left.width >= 0 : strip.edge >= least
+    const worth = isSeen ? leading * edge * edge + rest * strip.edge * strip.edge : strip.edge - least
+    return { columns, edge, isBeside, isColumn, lead, room, taken, strip, isSeen, worth }
+  }
+  let best = { ...option(1, 0, [false, false]), worth: -Infinity }
   for (const columns of upTo(leading)) {
     const most = edgeOf(viewport, leading, columns, head, gap)
     const fewest = leading > 1 ? LEAST * most : Math.min(most, LEAST * height)
     for (let edge = most; edge >= fewest; edge -= STEP) {
-      const lead = sizeOf(leading, columns, edge, head, gap)
-      for (const [isBeside, isColumn] of WAYS) {
-        const room = isBeside ? { width: width - lead.width - gap, height } : { width, height: height - lead.height - gap }
-        const taken = namesIn(room.width, names, isColumn, viewport)
-        const left = { width: room.width - taken.width, height: room.height - taken.height }
-        const found = stripIn(left, rest, viewport)
-        const strip = { ...found, edge: Math.min(found.edge, Math.floor(largest * edge)) }
-        const isSeen = rest === 0 ? left.height >= 0 && left.width >= 0 : strip.edge >= least
-        const worth = isSeen ? leading * edge * edge + rest * strip.edge * strip.edge : strip.edge - least
-        if (worth > best.worth && (isSeen || best.worth < 0)) best = { worth, lead: { columns, edge }, isBeside, isColumn, strip }
+      for (const way of WAYS) {
+        const one = option(columns, edge, way)
+        if (one.worth > best.worth && (one.isSeen || best.worth < 0)) best = one
       }
     }
   }
@@ -119,20 +124,17 @@ function layout(viewport, leading, rest, names) {
  */
 export function arrange(viewport, leading, rest, names = 0) {
   const { width, height, gap, head, title } = viewport
-  const { lead, isBeside, isColumn, strip } = layout(viewport, leading, rest, names)
-  const first = sizeOf(leading, lead.columns, lead.edge, head, gap)
+  const { columns, edge, isBeside, isColumn, lead: first, room, taken, strip } = layout(viewport, leading, rest, names)
   const aside = rest === 0 ? { width: 0, height: -gap } : sizeOf(rest, strip.columns, strip.edge, title, gap)
-  const room = isBeside ? width - first.width - gap : width
-  const taken = namesIn(room, names, isColumn, viewport)
   // Names alone fill a row beside the lead; without any the lead stands in the middle.
-  const beside = rest > 0 || isColumn ? aside.width : names > 0 ? room : -gap
+  const beside = rest > 0 || isColumn ? aside.width : names > 0 ? room.width : -gap
   const across = isBeside ? first.width + gap + beside + taken.width : Math.max(first.width, aside.width)
   const down = isBeside ? Math.max(first.height, aside.height + taken.height) : first.height + gap + aside.height + taken.height
   const [left, top] = [(width - across) / 2, Math.max(0, (height - down) / 2)]
   const [x, y] = isBeside ? [left + first.width + gap, top] : [(width - aside.width) / 2, top + first.height + gap]
   return {
     boxes: [
-      ...grid(leading, lead, head, gap, isBeside ? left : (width - first.width) / 2, top, false),
+      ...grid(leading, { columns, edge }, head, gap, isBeside ? left : (width - first.width) / 2, top, false),
       ...grid(rest, strip, title, gap, x, y, true),
     ],
     names: isColumn

@@ -3,7 +3,7 @@
 
 import { gallery } from "./gallery.js"
 import { drawRing, GUESS, inWords, linesOf, meanApart, nearest, overlay, TRUTH } from "./guess.js"
-import { circlePath } from "./looks.js"
+import { drawDisc, linePath } from "./looks.js"
 import { median, medianCurve, middleOf } from "./median.js"
 
 const DOT = 5
@@ -31,14 +31,9 @@ export function createAudience(prediction, cloud, say) {
   function paint(ctx) {
     lines = linesOf(prediction).map((line) => line.map(toPixels))
     say(sentence())
-    ctx.fillStyle = GUESS + FAINT
-    for (const point of points) {
-      circlePath(ctx, ...toPixels(point), DOT)
-      ctx.fill()
-    }
+    for (const point of points) drawDisc(ctx, ...toPixels(point), DOT, GUESS + FAINT)
     if (isCurve) {
-      ctx.beginPath()
-      for (const point of middle) ctx.lineTo(...toPixels(point))
+      linePath(ctx, middle.map(toPixels))
       ctx.lineWidth = 3
       ctx.strokeStyle = GUESS
       ctx.stroke()

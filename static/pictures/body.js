@@ -17,10 +17,10 @@
 import {
   drawArrow, drawBall, drawLine, drawMass, drawShadow, drawTrail, drawWheel, TRAIL, turnsOf, WHEEL,
 } from "./body_parts.js"
-import { circlePath, LOOKS } from "./looks.js"
-import { between } from "./moment.js"
+import { circlePath, drawDisc, LOOKS } from "./looks.js"
+import { between, moment } from "./moment.js"
 import { covers, createSolid, leaves } from "./solid.js"
-import { circle, cross, dot, plus, scaled, unit } from "./vectors.js"
+import { circle, columnsOf, cross, dot, plus, scaled, unit } from "./vectors.js"
 
 const CAVITY = 0.62
 const INNER = 0.26
@@ -60,13 +60,10 @@ function placing(columns, i, s) {
 function drawSection({ use, stroke }, normal, radius, axes, semi) {
   use({ weight: 2.5, dash: [6, 4] })
   const ring = circle(normal, 0, 192)
-  /** @type {number[][]} */
-  const sides = [[], [], []]
-  for (let i = 0; i < ring[0].length; i++) {
+  const sides = columnsOf(ring[0].map((_, i) => {
     const at = ring.map((column) => column[i])
-    const outwards = axes.reduce((sum, axis, k) => plus(sum, axis, dot(at, axis) / (semi[k] * semi[k])), [0, 0, 0])
-    outwards.forEach((x, k) => sides[k].push(x))
-  }
+    return axes.reduce((sum, axis, k) => plus(sum, axis, dot(at, axis) / (semi[k] * semi[k])), [0, 0, 0])
+  }))
   stroke(ring.map((column) => scaled(column, radius)), true, sides)
 }
 
@@ -77,23 +74,19 @@ function drawSection({ use, stroke }, normal, radius, axes, semi) {
  */
 export function bodyIn(source, attitude) {
   const solid = createSolid()
-  let t = 0
 
   /** Return the body at the time t, placed once for both halves. @param {Sheet} sheet */
   function now({ view }) {
     const { t: times, ...columns } = attitude.data
     if (!(times?.length > 1)) return null
-    const [i, s] = between(times, t)
+    const [i, s] = between(times, moment.t)
     const place = placing(columns, i, s)
     const { axes = /** @type {Vector[]} */ ([]), semi = [], trail = [], wheels = [], arc = [] } = source.data
     const first = Math.max(0, i - TRAIL)
     const places = [...Array(i + 1 - first).keys()].map((j) => placing(columns, first + j, 0))
     places.push(place)
     /** Return the latest path of a point of the body. @param {Vector} tip */
-    const pathOf = (tip) => {
-      const points = places.map((there) => there(tip))
-      return [0, 1, 2].map((k) => points.map((point) => point[k]))
-    }
+    const pathOf = (tip) => columnsOf(places.map((there) => there(tip)))
     /** @type {Vector[]} */
     const placed = axes.map(place)
     const way = arc.length ? arc[i] + s * (arc[i + 1] - arc[i]) : 0
@@ -143,8 +136,6 @@ export function bodyIn(source, attitude) {
   /** @type {ReturnType<typeof now> | null} */
   let held = null
   return {
-    /** @param {number} value */
-    set t(value) { t = value },
     /** Place the body for all the painting that follows. @param {Sheet} sheet */
     begin(sheet) {
       held = now(sheet)
@@ -199,9 +190,7 @@ export function bodyIn(source, attitude) {
         ctx.stroke()
         ctx.globalAlpha = 1
         drawBall(ctx, ...at([0, 0, INNER - CAVITY]), dark ? "#8A8F98" : "#9AA0AA", INNER * scale, text, 0.45)
-        circlePath(ctx, ...at([0, 0, -CAVITY]), 3.5)
-        ctx.fillStyle = text
-        ctx.fill()
+        drawDisc(ctx, ...at([0, 0, -CAVITY]), 3.5, text)
       }
       solid.paint(sheet, held.seen, semi, Boolean(hollow))
     },

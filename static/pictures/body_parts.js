@@ -1,7 +1,7 @@
 // @ts-check
 // Parts of pictures in space: rods, balls, the centre of mass, wheels, the shadow, the arrow below, trails, the moving point.
 
-import { circlePath, LOOKS, POINT } from "./looks.js"
+import { circlePath, drawDisc, linePath, LOOKS, POINT } from "./looks.js"
 import { outline } from "./solid.js"
 import { circle, cross, plus, scaled, unit } from "./vectors.js"
 
@@ -43,9 +43,7 @@ export function drawBall(ctx, x, y, colour, radius, ink, plain = 0.62) {
   light.addColorStop(0.35, colour)
   light.addColorStop(plain, colour)
   light.addColorStop(1, "#443")
-  circlePath(ctx, x, y, radius)
-  ctx.fillStyle = light
-  ctx.fill()
+  drawDisc(ctx, x, y, radius, light)
   ctx.setLineDash([])
   ctx.lineWidth = 1.5
   ctx.strokeStyle = ink
@@ -65,9 +63,7 @@ export function drawMass(ctx, x, y, radius, ink, dark) {
   ctx.setLineDash([])
   ctx.lineWidth = 1.5
   ctx.strokeStyle = ink
-  circlePath(ctx, x, y, radius)
-  ctx.fillStyle = dark ? "#121212" : "#FFFFFF"
-  ctx.fill()
+  drawDisc(ctx, x, y, radius, dark ? "#121212" : "#FFFFFF")
   ctx.fillStyle = ink
   for (const quarter of [0, 2]) {
     ctx.beginPath()
@@ -100,9 +96,7 @@ export function drawShadow({ ctx, dark, half, px, py, at }, axes, semi) {
     for (const [share, part] of [[0, 1], [0.55, 0.85], [0.8, 0.35], [1, 0]]) {
       spot.addColorStop(share, `rgba(${colour}, ${alpha * part})`)
     }
-    circlePath(ctx, 0, 0, size)
-    ctx.fillStyle = spot
-    ctx.fill()
+    drawDisc(ctx, 0, 0, size, spot)
   }
   // On a dark page the ground has to be lit for a shadow to show.
   if (dark) fade("200, 215, 235", 0.09, 1.4)
@@ -184,9 +178,7 @@ export function drawWheel({ ctx, text, dark, depth, at, use }, touching, along, 
     ctx.stroke()
   }
   fill(text, [1], 0.2 * WHEEL)
-  circlePath(ctx, ...at(touching), 4)
-  ctx.fillStyle = look.colour
-  ctx.fill()
+  drawDisc(ctx, ...at(touching), 4, look.colour)
 }
 
 /**
@@ -204,8 +196,7 @@ export function drawArrow(sheet, along, label) {
   if (Math.hypot(x - x0, y - y0) > 6) {
     const angle = Math.atan2(y - y0, x - x0)
     ctx.fillStyle = text
-    ctx.beginPath()
-    for (const turned of [0, 2.4, -2.4]) ctx.lineTo(x + 7 * Math.cos(angle + turned), y + 7 * Math.sin(angle + turned))
+    linePath(ctx, [0, 2.4, -2.4].map((turned) => [x + 7 * Math.cos(angle + turned), y + 7 * Math.sin(angle + turned)]))
     ctx.fill()
   }
   write(label, x + 14 + ctx.measureText(label).width / 2, y)
@@ -234,14 +225,12 @@ export function drawTrail({ ctx, stroke, use, at, isNear }, path, look, near, do
     ctx.globalAlpha = (near ? 1 : 0.4) * share
     stroke(path.map((column) => Array.prototype.slice.call(column, from, to + 1)), near)
   }
-  ctx.fillStyle = ctx.strokeStyle
   for (const dot of dots) {
     const i = Math.min(n - 2, Math.floor(dot))
     const point = path.map((column) => column[i] + (dot - i) * (column[i + 1] - column[i]))
     if (isNear(point) !== near) continue
     ctx.globalAlpha = (near ? 1 : 0.4) * Math.max(0, 1 - (n - 1 - dot) / TRAIL)
-    circlePath(ctx, ...at(point), 4)
-    ctx.fill()
+    drawDisc(ctx, ...at(point), 4, String(ctx.strokeStyle))
   }
 }
 
@@ -253,9 +242,7 @@ export function drawTrail({ ctx, stroke, use, at, isNear }, path, look, near, do
  */
 export function drawPoint({ ctx, at, use }, point, near) {
   use({ weight: 1.5 })
-  ctx.fillStyle = POINT
-  circlePath(ctx, ...at(point), 6.5)
-  ctx.fill()
+  drawDisc(ctx, ...at(point), 6.5, POINT)
   ctx.stroke()
   if (near) return
   use({ weight: 1.5, dash: [3.5, 3.4] })

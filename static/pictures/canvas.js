@@ -4,11 +4,10 @@
 
 import { listen } from "../base/bus.js"
 import { element } from "../base/elements.js"
-import { zoom } from "../base/presenting.js"
+import { zoom } from "../base/modes.js"
+import { clipTo, covering } from "./frame.js"
 import { inks, onDark } from "./looks.js"
 import { largerOf } from "./plot_looks.js"
-
-const pixelRatio = () => devicePixelRatio || 1
 
 /**
  * Resize a canvas to the pixels of the screen, and return its empty context in CSS pixels.
@@ -18,51 +17,11 @@ const pixelRatio = () => devicePixelRatio || 1
  */
 export function fit(canvas, width, height) {
   const ctx = canvas.getContext("2d")
-  const ratio = pixelRatio()
-  const [columns, rows] = [width, height].map((side) => Math.round(ratio * side))
+  const [columns, rows] = [width, height].map((side) => Math.round(devicePixelRatio * side))
   if (canvas.width !== columns || canvas.height !== rows) Object.assign(canvas, { width: columns, height: rows })
   ctx.reset()
-  ctx.scale(ratio, ratio)
+  ctx.scale(devicePixelRatio, devicePixelRatio)
   return ctx
-}
-
-/**
- * Return a canvas that repaints itself, its size in CSS pixels, and a function that requests a repaint.
- * @param {string} className
- * @param {object} properties see `element`
- * @param {(ctx: CanvasRenderingContext2D, look: CanvasLook) => void} paint
- */
-export function liveCanvas(className, properties, paint) {
-  const canvas = element(`canvas.${className}`, properties)
-    // Keep the sizes, because reading them in each frame would force a layout.
-  const own = { canvas, width: 0, height: 0, request }
-  let requested = false
-
-  function draw() {
-    if (!requested) return
-    requested = false
-    const { width, height } = own
-    if (width === 0 || height === 0) return
-    paint(fit(canvas, width, height), { width, height, text: inks()[0], dark: onDark() })
-  }
-
-  function request() {
-    if (requested) return
-    requested = true
-    requestAnimationFrame(draw)
-  }
-
-  // Paint together with the other pictures of a state.
-  listen({
-    paint: draw,
-    presenting: request,
-    themed: request,
-  })
-  new ResizeObserver(() => {
-    Object.assign(own, { width: canvas.clientWidth, height: canvas.clientHeight })
-    request()
-  }).observe(canvas)
-  return own
 }
 
 /**
@@ -85,21 +44,44 @@ function lifted(ctx, text, left, top, ratio) {
 }
 
 /**
- * Add a square canvas to an element, as wide as the element.
+ * Add a square canvas to an element, as wide as the element, that repaints itself.
  *
- * Lengths are in CSS pixels, larger in present mode.  shoot(look) draws the picture on a canvas of its own.
+ * Lengths are in CSS pixels, larger in present mode.  request() requests a repaint, and shoot(look) draws the picture on a canvas
+ * of its own.
  * @param {HTMLElement} el
  * @param {string} className
- * @param {object} properties
+ * @param {object} properties see `element`
  * @param {PaintSquare} paint
  */
 export function squareCanvas(el, className, properties, paint) {
-  const own = liveCanvas(className, properties, (ctx, { width, text, dark }) => {
+  const canvas = element(`canvas.${className}`, properties)
+  el.append(canvas)
+  // Kept here: reading it in each frame would force a layout.
+  let width = 0
+  let requested = false
+
+  function draw() {
+    if (!requested) return
+    requested = false
+    if (width === 0) return
+    const ctx = fit(canvas, width, width)
     const larger = zoom(width)
     ctx.scale(larger, larger)
-    paint(ctx, { edge: width / larger, ratio: pixelRatio() * larger, text, dark })
-  })
-  el.append(own.canvas)
+    paint(ctx, { edge: width / larger, ratio: devicePixelRatio * larger, text: inks()[0], dark: onDark() })
+  }
+
+  function request() {
+    if (requested) return
+    requested = true
+    requestAnimationFrame(draw)
+  }
+
+  // Paint together with the other pictures of a state.
+  listen({ paint: draw, presenting: request, themed: request })
+  new ResizeObserver(() => {
+    width = canvas.clientWidth
+    request()
+  }).observe(canvas)
   /** @param {ShotLook} look */
   const shoot = (look) => {
     const { edge, ratio, texts } = look
@@ -111,7 +93,7 @@ export function squareCanvas(el, className, properties, paint) {
     paint(ctx, look)
     return sheet
   }
-  return Object.assign(own, { shoot })
+  return { canvas, request, shoot }
 }
 
 /**
@@ -123,7 +105,7 @@ export function squareCanvas(el, className, properties, paint) {
  */
 export function frameCanvas(plot, other, side, paint) {
   const canvas = element("canvas")
-  canvas.style.cssText = "position: absolute; inset: 0; width: 100%; height: 100%; pointer-events: none"
+  canvas.style.cssText = covering("pointer-events: none")
   other[side](canvas)
   let stale = true
   let drawn = ""
@@ -140,9 +122,7 @@ export function frameCanvas(plot, other, side, paint) {
     drawn = here
     const ctx = fit(canvas, width, height)
     ctx.translate(0.5, 0.5)
-    ctx.beginPath()
-    ctx.rect(x0, y0, x1 - x0, y1 - y0)
-    ctx.clip()
+    clipTo(ctx, { x0, y0, x1, y1 })
     paint(ctx, xScale, yScale, largerOf(plot))
   }
 

@@ -1,10 +1,16 @@
 // @ts-check
-// Clouds of phase points, moved between the frames that the server has sent.
+// Clouds of phase points, moved between the frames that the server has sent, and written into the pixels of a canvas: drawing each
+// point would take many times longer.
 //
 // For each cloud i the source holds `frames<i>`: numbers [frame][column][point] at evenly spaced `times`, with the columns
 // (x, y, γ1, γ2, γ3).  Without `signs<i>`, x and y are ω1 and ω2 of a motion with I13 = I23 = 0 in the field b3.  With
 // `signs<i>`, x is (ω, ξ) and y is ln|s|, where s = I13ω1 + I23ω2, there is no field, and `signs<i>` holds the signs of s.
 // `body` = [I11, I22, I13, I23, 𝒟, b3]; `sense` is 1, or −1 if time runs backward.
+
+import { element } from "../base/elements.js"
+import { cloudColour } from "./looks.js"
+import { moment } from "./moment.js"
+import { atFirst } from "./sources.js"
 
 class Cloud {
   /**
@@ -109,29 +115,74 @@ class Cloud {
   }
 }
 
-/** @type {WeakMap<Source, {at: (t: number) => Cloud[]}>} */
-const allClouds = new WeakMap()
+const cloudsFrom = atFirst((/** @type {Data} */ data) => [0, 1].filter((i) => data[`frames${i}`]?.length > 0).map((i) => (
+  new Cloud(data[`frames${i}`], data[`signs${i}`], data.body, data.times, data.sense))))
 
 /**
  * Return the clouds of a source; at(t) returns them at a time.  All pictures of a source share its clouds.
  * @param {Source} source
  */
 export function cloudsOf(source) {
-  if (allClouds.has(source)) return allClouds.get(source)
-  /** @type {Data | null} */
-  let data = null
-  /** @type {Cloud[]} */
-  let clouds = []
-  /** @param {number} t */
-  const at = (t) => {
-    if (data !== source.data) {
-      data = source.data
-      clouds = [0, 1].filter((i) => data[`frames${i}`]?.length > 0).map((i) => (
-        new Cloud(data[`frames${i}`], data[`signs${i}`], data.body, data.times, data.sense)))
-    }
-    for (const cloud of clouds) cloud.moveTo(t)
-    return clouds
+  return {
+    /** @param {number} t */
+    at(t) {
+      const clouds = cloudsFrom(source.data)
+      for (const cloud of clouds) cloud.moveTo(t)
+      return clouds
+    },
   }
-  allClouds.set(source, { at })
-  return allClouds.get(source)
+}
+
+/**
+ * Return a layer that draws the clouds of a source as small translucent squares; where many overlap it is opaque.
+ * @param {Source} source
+ */
+export function pointLayer(source) {
+  const clouds = cloudsOf(source)
+  const sheet = element("canvas")
+  const paper = sheet.getContext("2d")
+  /** @type {ImageData | null} */
+  let pixels = null
+
+  /** @param {number} size @param {number[]} colour */
+  function begin(size, [red, green, blue]) {
+    if (sheet.width !== size || pixels === null) {
+      sheet.width = sheet.height = size
+      pixels = paper.createImageData(size, size)
+    }
+    // Little-endian pixels, alpha last.
+    new Uint32Array(pixels.data.buffer).fill((blue << 16) | (green << 8) | red)
+  }
+
+  return {
+    /**
+     * Draw the clouds at the time of the player.
+     * @param {{ctx: CanvasRenderingContext2D, edge: number, ratio: number}} picture its edge, and device pixels per unit
+     * @param {(cloud: Cloud, add: (x: number, y: number) => void) => void} points calls add(x, y) in device pixels for each point
+     */
+    draw({ ctx, edge, ratio }, points) {
+      const size = Math.round(edge * ratio)
+      const side = Math.round(1.6 * ratio)
+      clouds.at(moment.t).forEach((cloud, k) => {
+        begin(size, cloudColour(k))
+        const { data } = pixels
+        // Smaller clouds are darker.
+        const alpha = Math.max(110, Math.min(230, 1_100_000 / cloud.count))
+        points(cloud, (x, y) => {
+          const [left, top] = [Math.round(x - side / 2), Math.round(y - side / 2)]
+          if (!(left >= 0 && top >= 0 && left + side <= size && top + side <= size)) return
+          for (let row = 0; row < side; row++) {
+            const at = 4 * ((top + row) * size + left) + 3
+            for (let i = 0; i < side; i++) data[at + 4 * i] += alpha
+          }
+        })
+        paper.putImageData(pixels, 0, 0)
+        // Copy pixel by pixel, whatever the unit.
+        ctx.save()
+        ctx.setTransform(1, 0, 0, 1, 0, 0)
+        ctx.drawImage(sheet, 0, 0)
+        ctx.restore()
+      })
+    },
+  }
 }

@@ -7,11 +7,12 @@
 
 import { listen, tell } from "../base/bus.js"
 import { written } from "../base/numbers.js"
-import { zoom } from "../base/presenting.js"
+import { zoom } from "../base/modes.js"
 import { squareCanvas } from "./canvas.js"
-import { cloudsOf } from "./cloud.js"
-import { drawMark, LOOKS, useLook } from "./looks.js"
-import { pointLayer } from "./point_layer.js"
+import { cloudsOf, pointLayer } from "./cloud.js"
+import { clipTo } from "./frame.js"
+import { drawMark, linePath, LOOKS, useLook } from "./looks.js"
+import { moment } from "./moment.js"
 import { connectZoom, zoomed } from "./zoom.js"
 
 const MARGIN = { left: 46, right: 8, top: 8, bottom: 42 }
@@ -38,24 +39,24 @@ function ticksIn(low, high) {
  * @param {Axes} axes
  */
 function placing(edge, [x0, x1, y0, y1]) {
-  const frame = { left: MARGIN.left, right: edge - MARGIN.right, top: MARGIN.top, bottom: edge - MARGIN.bottom }
-  const [w, h] = [frame.right - frame.left, frame.bottom - frame.top]
+  const frame = { x0: MARGIN.left, x1: edge - MARGIN.right, y0: MARGIN.top, y1: edge - MARGIN.bottom }
+  const [w, h] = [frame.x1 - frame.x0, frame.y1 - frame.y0]
   return {
     frame, w, h, across: ticksIn(x0, x1), up: ticksIn(y0, y1),
-    x: (/** @type {number} */ a) => frame.left + (w * (a - x0)) / (x1 - x0),
-    y: (/** @type {number} */ b) => frame.top + (h * (y1 - b)) / (y1 - y0),
+    x: (/** @type {number} */ a) => frame.x0 + (w * (a - x0)) / (x1 - x0),
+    y: (/** @type {number} */ b) => frame.y0 + (h * (y1 - b)) / (y1 - y0),
     /** Return the values at a point of the picture. @param {number} left @param {number} top */
-    invert: (left, top) => [x0 + ((left - frame.left) / w) * (x1 - x0), y1 - ((top - frame.top) / h) * (y1 - y0)],
+    invert: (left, top) => [x0 + ((left - frame.x0) / w) * (x1 - x0), y1 - ((top - frame.y0) / h) * (y1 - y0)],
   }
 }
 
 /** @param {CanvasRenderingContext2D} ctx @param {ReturnType<typeof placing>} plane @param {string} text */
 function drawAxes(ctx, { frame, w, h, x, y, across, up }, text) {
-  const { left, bottom } = frame
+  const { x0: left, y0: top, y1: bottom } = frame
   useLook(ctx, { weight: 1 }, text)
   ctx.fillStyle = text
   ctx.globalAlpha = 0.4
-  ctx.strokeRect(left, frame.top, w, h)
+  ctx.strokeRect(left, top, w, h)
   ctx.font = "12px system-ui, sans-serif"
   for (const value of across) ctx.strokeRect(x(value), bottom, 0, TICK)
   for (const value of up) ctx.strokeRect(left - TICK, y(value), TICK, 0)
@@ -109,9 +110,8 @@ function densityOf(cloud, bins) {
 export function cloudPlane(el, options, source, isShown) {
   const own = source(options.name)
   const clouds = cloudsOf(own)
-  const layer = pointLayer()
-  let t = 0
-  // Keep the last range while there are no clouds.
+  const layer = pointLayer(own)
+  // Kept while there are no clouds.
   /** @type {Axes} */
   let whole = [-1, 1, -1, 1]
   const { canvas, request, shoot } = squareCanvas(el, "sphere.cloud", {
@@ -125,8 +125,8 @@ export function cloudPlane(el, options, source, isShown) {
     name: options.name, isComputed: false, invert, show: request,
     axes: () => whole,
     frame() {
-      const { larger, frame: { left, right, top, bottom } } = here()
-      return { x0: larger * left, x1: larger * right, y0: larger * top, y1: larger * bottom }
+      const { larger, frame: { x0, x1, y0, y1 } } = here()
+      return { x0: larger * x0, x1: larger * x1, y0: larger * y0, y1: larger * y1 }
     },
   })
   /** @param {number} edge */
@@ -149,35 +149,28 @@ export function cloudPlane(el, options, source, isShown) {
   /** @type {PaintSquare} */
   function paint(ctx, { edge, ratio, text }) {
     const here = place(edge)
-    const { frame, w, h, x, y } = here
+    const { frame, x, y } = here
     const { curves = [], points = [] } = own.data
     drawAxes(ctx, here, text)
-    ctx.beginPath()
-    ctx.rect(frame.left, frame.top, w, h)
-    ctx.clip()
+    clipTo(ctx, frame)
     for (const [look, xs, ys] of curves) {
       useLook(ctx, LOOKS[look], text)
-      ctx.beginPath()
-      for (let i = 0; i < xs.length; i++) ctx.lineTo(x(xs[i]), y(ys[i]))
+      linePath(ctx, Array.from(xs, (/** @type {number} */ a, i) => [x(a), y(ys[i])]))
       ctx.stroke()
     }
     for (const [look, a, b] of points) drawMark(ctx, x(a), y(b), look, text)
-    // Draw above the equilibria, where a whole cloud may end.
-    layer.draw(ctx, Math.round(edge * ratio), ratio, clouds.at(t), ({ count, w1, w2 }, add) => {
+    // Over the equilibria, where a whole cloud may end.
+    layer.draw({ ctx, edge, ratio }, ({ count, w1, w2 }, add) => {
       for (let i = 0; i < count; i++) add(ratio * x(w1[i]), ratio * y(w2[i]))
     })
   }
 
   const refresh = () => {
     request()
-    source(options.density).put(densityOf(clouds.at(t)[0], own.data.bins))
+    source(options.density).put(densityOf(clouds.at(moment.t)[0], own.data.bins))
   }
   listen({
-    time(now) {
-      if (!isShown()) return
-      t = now.t
-      refresh()
-    },
+    time() { if (isShown()) refresh() },
   })
   own.watch(refresh)
   return { shoot }

@@ -2,14 +2,13 @@
 // Draws thousands of dots of one colour as squares, where Bokeh would draw each as a circle with its own colours, and the points
 // that move in time on a canvas of their own: while a scene plays, Bokeh has nothing to paint.
 
-import { circlePath, shade } from "./looks.js"
+import { circlePath, linePath, shade } from "./looks.js"
 import { drawBeads } from "./swarm.js"
 
 /** Begin a path with a triangle that points downwards; its centre is at (x, y). @type {typeof circlePath} */
 function trianglePath(ctx, x, y, radius) {
   const height = radius * Math.sqrt(3)
-  ctx.beginPath()
-  for (const [right, down] of [[-radius, -height / 3], [radius, -height / 3], [0, 2 * height / 3]]) ctx.lineTo(x + right, y + down)
+  linePath(ctx, [[x - radius, y - height / 3], [x + radius, y - height / 3], [x, y + 2 * height / 3]])
   ctx.closePath()
 }
 

@@ -4,14 +4,14 @@
 import { listen } from "../base/bus.js"
 import { sayDragMe } from "../base/handle.js"
 import { element } from "../base/elements.js"
-import { zoom } from "../base/presenting.js"
+import { zoom } from "../base/modes.js"
 import { cloudPlane } from "./cloud_plane.js"
-import { planeGhost } from "./ghost.js"
+import { toPixels } from "./frame.js"
+import { planeGhost, shootPlot } from "./ghost.js"
 import { ink, inks, setShades } from "./looks.js"
 import { createCell, fillCaption, fillHover, isFolded, isInSight, nameOf } from "./picture.js"
 import { buildPlot } from "./plot.js"
 import { colourPlot } from "./plot_looks.js"
-import { shootPlot } from "./shots.js"
 import { Source } from "./sources.js"
 import { sphere } from "./sphere.js"
 import { createStage } from "./stage.js"
@@ -47,8 +47,6 @@ export const gallery = {
   cellsInSight: () => shown.cells.filter(isInSight),
   openCells: () => shown.cells.filter((cell) => !isFolded(cell)),
   get shown() { return shown },
-  /** The picture that was last under the mouse. @type {string | null} */
-  pointed: null,
   build, enter, takeGhost, showGhost, shoot,
 }
 
@@ -79,8 +77,7 @@ async function build(description, begun = async () => {}) {
   /** @type {Scene} */
   const scene = { name: description.name, lead: description.lead, grid, sources: new Map(), cells: [], plots: [], ranges: {}, beside: {}, ghosts: [], shots: new Map(), sizes: new Map(), painted: false, isComplete: false, source }
   const places = description.pictures.map((picture) => {
-    const { name } = picture
-    const [cell, host] = createCell(picture, stage.cornerFor(name), () => { gallery.pointed = name })
+    const [cell, host] = createCell(picture, stage.cornerFor(picture.name))
     grid.append(cell)
     scene.cells.push(cell)
     return /** @type {[HTMLElement, PictureDescription]} */ ([host, picture])
@@ -139,7 +136,6 @@ function shoot(side) {
 function enter(name) {
   shown?.grid.classList.add("away")
   shown = built.get(name)
-  gallery.pointed = null
   shown.grid.classList.remove("away")
   stage.enter(shown)
   return shown
@@ -150,12 +146,13 @@ function besideLayer({ picture, source, columns }) {
   const point = columns?.map((column) => gallery.source(source).data[column]?.[0])
   const cell = gallery.cell(picture)
   if (point?.[0] === undefined || !isInSight(cell)) return null
-  const { frame, repainted: moved } = gallery.plot(picture)
+  const plot = gallery.plot(picture)
   return {
-    host: cell.querySelector(".host"), moved,
-    place: () => ({
-      left: `calc(${frame.x_scale.compute(point[0])}px + 1.2em)`, top: `${frame.y_scale.compute(point[1])}px`,
-    }),
+    host: cell.querySelector(".host"), moved: plot.repainted,
+    place() {
+      const [left, top] = toPixels(plot, point)
+      return { left: `calc(${left}px + 1.2em)`, top: `${top}px` }
+    },
   }
 }
 

@@ -1,8 +1,12 @@
 // @ts-check
-// Ghosts: faint copies of an earlier state, redrawn only when axes or sizes change.
+// Copies of Bokeh plots.  Ghosts: faint ones of an earlier state, redrawn only when axes or sizes change.  Shots, for print and for
+// films: in the colours of any theme, and sharper than on the screen.
 
 import { element } from "../base/elements.js"
+import { atRatio, takeColours } from "./bokeh_private.js"
 import { frameCanvas } from "./canvas.js"
+import { clipTo } from "./frame.js"
+import { colourPlot } from "./plot_looks.js"
 
 export const FAINT = 0.4
 
@@ -11,7 +15,7 @@ export const FAINT = 0.4
  * @param {PlotView} plot
  * @returns {HTMLCanvasElement[]}
  */
-export function layersOf(plot) {
+function layersOf(plot) {
   const layers = /** @type {HTMLCanvasElement[]} */ ([...plot.canvas_view.primary.el.parentNode.children])
   return layers.filter((layer) => (
     layer instanceof HTMLCanvasElement && layer.width > 0 && !layer.matches(".ghost, .guess, .audience")))
@@ -67,4 +71,46 @@ export function planeGhost(plot) {
       canvas.draw()
     },
   }
+}
+
+/** @param {PlotView} plot @param {number} side @param {number} ratio */
+function composed(plot, side, ratio) {
+  const { primary } = plot.canvas_view
+  const sheet = element("canvas", { width: side, height: Math.round(ratio * plot.bbox.height) })
+  const paper = sheet.getContext("2d")
+  for (const layer of layersOf(plot)) {
+    paper.save()
+    if (layer !== primary.el) {
+      paper.scale(ratio, ratio)
+      clipTo(paper, plot.frame.bbox)
+      paper.resetTransform()
+    }
+    paper.drawImage(layer, 0, 0, sheet.width, sheet.height)
+    paper.restore()
+  }
+  return sheet
+}
+
+/**
+ * Return a picture of a plot with our canvases, laid out as on the page.  The plot is left in the colours of the picture;
+ * everything happens in one task, so that nothing of it is seen.
+ * @param {PlotView} plot
+ * @param {ShotLook} look
+ */
+export function shootPlot(plot, { edge, ratio: sharpness, text }) {
+  const repaint = () => {
+    plot.canvas_view.resize()
+    plot.invalidate_painters()
+    plot.paint()
+  }
+  const side = Math.round(edge * sharpness)
+  const ratio = side / plot.bbox.width
+  colourPlot(plot, text, text)
+  takeColours(plot)
+  const sheet = atRatio(ratio, () => {
+    repaint()
+    return composed(plot, side, ratio)
+  })
+  repaint()
+  return sheet
 }

@@ -5,8 +5,9 @@ import { arrowOf } from "../base/keys.js"
 import { element } from "../base/elements.js"
 import { within, written } from "../base/numbers.js"
 import { fit } from "./canvas.js"
+import { covering, toPixels, toValues } from "./frame.js"
 import { gallery } from "./gallery.js"
-import { circlePath } from "./looks.js"
+import { circlePath, linePath } from "./looks.js"
 
 const RING = 9
 const MOST = 40
@@ -42,18 +43,15 @@ export const inWords = (plot, distances) => axesOf(plot).map(([{ type }, { axis_
  * @param {(ctx: CanvasRenderingContext2D) => void} paint
  */
 export function overlay(plot, name, properties, style, paint) {
-  const { frame } = plot
   const sheet = element(`canvas.${name}`, properties)
   const draw = () => paint(fit(sheet, plot.bbox.width, plot.bbox.height))
-  sheet.style.cssText = `position: absolute; inset: 0; width: 100%; height: 100%; ${style}`
+  sheet.style.cssText = covering(style)
   plot.canvas_view.overlays.el.parentNode.append(sheet)
   plot.repainted.connect(draw)
   return {
     sheet, draw,
-    /** @type {(point: number[]) => [number, number]} */
-    toPixels: ([x, y]) => [frame.x_scale.compute(x), frame.y_scale.compute(y)],
-    /** @type {(point: number[]) => [number, number]} */
-    toData: ([x, y]) => [frame.x_scale.invert(x), frame.y_scale.invert(y)],
+    toPixels: (/** @type {number[]} */ point) => toPixels(plot, point),
+    toData: (/** @type {number[]} */ point) => toValues(plot, point),
     remove() {
       plot.repainted.disconnect(draw)
       sheet.remove()
@@ -152,10 +150,8 @@ export function createGuess(prediction, say, guessed = null) {
     for (const [i, click] of clicks.map(toPixels).entries()) {
       if (truth !== null) {
         const point = toPixels(truth[i])
-        ctx.beginPath()
+        linePath(ctx, [click, point])
         ctx.setLineDash([4, 4])
-        ctx.moveTo(...click)
-        ctx.lineTo(...point)
         ctx.lineWidth = 2
         ctx.strokeStyle = GUESS
         ctx.stroke()

@@ -89,6 +89,30 @@ export function circlePath(ctx, x, y, radius) {
 }
 
 /**
+ * Fill a circle, whose path stays for its outline.
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {number} x
+ * @param {number} y
+ * @param {number} radius
+ * @param {string | CanvasGradient} colour
+ */
+export function drawDisc(ctx, x, y, radius, colour) {
+  circlePath(ctx, x, y, radius)
+  ctx.fillStyle = colour
+  ctx.fill()
+}
+
+/**
+ * Begin a path with a polyline.
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {Iterable<number[]>} points
+ */
+export function linePath(ctx, points) {
+  ctx.beginPath()
+  for (const [x, y] of points) ctx.lineTo(x, y)
+}
+
+/**
  * Draw a point of a phase portrait: a dot, or a ring if it is unstable.
  * @param {CanvasRenderingContext2D} ctx
  * @param {number} x

@@ -1,5 +1,11 @@
 // @ts-check
-// Samples of an orbit around a time, and the state between them.
+// The time of the player, samples of an orbit around a time, and the state between them.
+
+import { listen } from "../base/bus.js"
+
+/** The time of the player and the state then, null without a motion. @type {PageEvents["time"]} */
+export const moment = { t: 0, state: null }
+listen({ time(now) { Object.assign(moment, now) } })
 
 /**
  * Return [i, s]: the time t lies between the samples i and i + 1, at the share s of the interval.

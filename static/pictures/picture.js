@@ -2,7 +2,7 @@
 // The cell of a picture: caption, corner button, host of the picture, and a line about the point under the mouse.
 
 import { element } from "../base/elements.js"
-import { byHand } from "../base/windows.js"
+import { byHand } from "../base/modes.js"
 import { unbroken } from "./unbroken.js"
 
 const CROSS = "arrow keys move a cross, Enter chooses, + and − zoom, 0 shows the whole"
@@ -20,14 +20,13 @@ const HANDS = {
  * Return [cell, host]; the picture is drawn into the host.
  * @param {PictureDescription} picture
  * @param {HTMLElement} corner
- * @param {() => void} pointed is called when the pointer enters
  * @returns {[HTMLElement, HTMLElement]}
  */
-export function createCell({ name, folded, hands }, corner, pointed) {
+export function createCell({ name, folded, hands }, corner) {
   const host = element(`div.host.hands-${hands.split(" ").at(-1)}`, { title: byHand(HANDS[hands]?.[0] ?? ""), dataset: { hands } })
   const under = element("output.text.hover", { hidden: true })
   const cell = element(`section.picture.picture-${name}`, {
-    dataset: { name }, onpointerenter: pointed, onmouseleave: () => { under.hidden = true },
+    dataset: { name }, onmouseleave: () => { under.hidden = true },
   }, element("h2.text.caption",
     element("span.title"), "\n", element("span.verdict"), " ", element("span.numbers")), corner, host, under)
   cell.classList.toggle("folded", folded !== null)

@@ -3,11 +3,12 @@
 
 import { listen } from "../base/bus.js"
 import { element } from "../base/elements.js"
-import { isPresenting } from "../base/presenting.js"
+import { isPresenting } from "../base/modes.js"
 import { spareStyles, spareUnseen, waitLongForPress } from "./bokeh_private.js"
 import { frameCanvas } from "./canvas.js"
 import { cellsPainter } from "./cells.js"
 import { dotsPainter, movingPointsPainter } from "./dots.js"
+import { toPixels, toValues } from "./frame.js"
 import { connectPicks } from "./picks.js"
 import { connectKeys } from "./plot_keys.js"
 import { tickFormatter } from "./ticks.js"
@@ -99,11 +100,11 @@ function nameAxes({ below: [x], left: [y] }, names) {
  * @param {FindSource} source
  * @returns {number[][]}
  */
-function pointsOf({ frame: { x_scale: xScale, y_scale: yScale } }, handle, source) {
+function pointsOf(plot, handle, source) {
   if (handle === null) return []
   const [name, x, y] = handle
   const { [x]: xs = [], [y]: ys = [] } = source(name).data
-  return Array.from(xs, (value, i) => [xScale.compute(value), yScale.compute(ys[i])])
+  return Array.from(xs, (value, i) => toPixels(plot, [value, ys[i]]))
 }
 
 /**
@@ -111,17 +112,17 @@ function pointsOf({ frame: { x_scale: xScale, y_scale: yScale } }, handle, sourc
  * @param {PlotView} plot
  * @param {boolean} isZoomed
  */
-function hideCut({ model, frame }, isZoomed) {
-  const { x0, x1, y0, y1 } = frame.bbox
+function hideCut(plot, isZoomed) {
+  const { x0, x1, y0, y1 } = plot.frame.bbox
   const ctx = element("canvas").getContext("2d")
-  for (const renderer of model.renderers) {
+  for (const renderer of plot.model.renderers) {
     const { glyph, data_source: source } = renderer
     if (!source.name?.endsWith("-label")) continue
     const { x: [x] = [], y: [y] = [], text: [text] = [] } = source.data
     const size = Number.parseFloat(glyph.text_font_size.value ?? glyph.text_font_size)
     ctx.font = `bold ${size}px helvetica`
     const half = ctx.measureText(text).width / 2
-    const [left, top] = [frame.x_scale.compute(x), frame.y_scale.compute(y)]
+    const [left, top] = toPixels(plot, [x, y])
     const isInside = x0 <= left - half && left + half <= x1 && y0 <= top - size / 2 && top + size / 2 <= y1
     renderer.setv({ visible: !isZoomed || isInside })
   }
@@ -166,16 +167,15 @@ export async function buildPlot(host, picture, source) {
   })
   if (picture.renamed) nameAxes(model, source(`${picture.name}-axes`))
   const { picks } = picture
-  const { frame } = plot
   const { x_range: xRange, y_range: yRange } = model
   const boxes = picks.includes("box")
   const zoomSource = source(`${picture.name}-zoom`)
   zoomSource.watch(() => hideCut(plot, zoomSource.data.axes !== undefined))
   const zoom = connectZoom(host, zoomSource, {
     name: picture.name, isComputed: boxes,
-    frame: () => frame.bbox,
+    frame: () => plot.frame.bbox,
     axes: () => [xRange.start, xRange.end, yRange.start, yRange.end],
-    invert: (x, y) => [frame.x_scale.invert(x), frame.y_scale.invert(y)],
+    invert: (x, y) => toValues(plot, [x, y]),
     show: (axes) => showAxes(model, axes),
   })
   const touch = connectTouch(host, plot, { points: () => pointsOf(plot, picture.handle, source), boxes, isAlone: zoom.isAlone })

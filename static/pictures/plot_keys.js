@@ -6,6 +6,7 @@ import { listen, tell } from "../base/bus.js"
 import { element } from "../base/elements.js"
 import { arrowOf } from "../base/keys.js"
 import { within } from "../base/numbers.js"
+import { toValues } from "./frame.js"
 import { choose } from "./picks.js"
 
 const FAR = 10
@@ -28,7 +29,6 @@ export function connectKeys(host, plot, { picks, points, zoom }) {
   /** @type {number[] | null} */
   let at = null
   let isPointed = false
-  const valuesAt = () => [frame.x_scale.invert(at[0]), frame.y_scale.invert(at[1])]
 
   function put() {
     cross.hidden = at === null
@@ -50,7 +50,7 @@ export function connectKeys(host, plot, { picks, points, zoom }) {
     const { x0, x1, y0, y1 } = frame.bbox
     const from = here()
     at = [within(from[0] + step * across, x0, x1), within(from[1] - step * up, y0, y1)]
-    const [x, y] = valuesAt()
+    const [x, y] = toValues(plot, at)
     if (points !== null) return choose(model, x, y, false)
     put()
     if (picks.includes("hover")) tell("hover", [model.name, x, y])
@@ -63,8 +63,7 @@ export function connectKeys(host, plot, { picks, points, zoom }) {
     else if (event.key in FACTORS) zoom.by(FACTORS[event.key], here())
     else if (event.key === "0") zoom.restore()
     else if (event.key === "Enter" && at !== null && points === null) {
-      const [x, y] = valuesAt()
-      choose(model, x, y, false)
+      choose(model, ...toValues(plot, at), false)
     } else return
     event.preventDefault()
     event.stopPropagation()

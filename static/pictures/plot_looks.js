@@ -1,8 +1,9 @@
 // @ts-check
 // Sizes and colours of Bokeh plots, for the font size beside the pictures, present mode and the theme.
 
-import { zoom } from "../base/presenting.js"
+import { zoom } from "../base/modes.js"
 import { shade } from "./looks.js"
+import { atFirst } from "./sources.js"
 
 // Font size of ticks relative to that of axis labels.
 const TICKS = 0.86
@@ -12,23 +13,8 @@ const [LABELLED, AXES, UNLABELLED] = [270, 5, 240]
 const COLOURS = ["line_color", "fill_color", "text_color", "background_fill_color"]
 const SIZES = ["line_width", "axis_line_width", "major_tick_line_width", "outline_line_width", "size", "text_font_size"]
 
-/**
- * Return a function that remembers what `read` returned for a Bokeh model the first time, before it was changed here.
- * @template Result
- * @param {(part: BokehModel) => Result} read
- */
-function atFirst(read) {
-  /** @type {WeakMap<BokehModel, Result>} */
-  const found = new WeakMap()
-  /** @param {BokehModel} part */
-  return (part) => {
-    if (!found.has(part)) found.set(part, read(part))
-    return found.get(part)
-  }
-}
-
-// Leave sizes that are columns unchanged.
-const sizesOf = atFirst((part) => SIZES.filter((name) => part[name] != null)
+// The sizes of a model before any change; those that are columns are left alone.
+const sizesOf = atFirst((/** @type {BokehModel} */ part) => SIZES.filter((name) => part[name] != null)
   .map((name) => [name, part[name].value ?? part[name]]).filter(([, value]) => typeof value !== "object"))
 
 /** @param {number} factor @param {unknown} value */
@@ -68,7 +54,7 @@ export function sizePlot(plot, type, isAside, edge) {
 const colourOf = (glyph, name) => glyph[name]?.value ?? glyph[name]
 
 // The colours of a glyph before any change, as in "theme.py".
-const coloursOf = atFirst((glyph) => COLOURS.map((name) => [name, colourOf(glyph, name)])
+const coloursOf = atFirst((/** @type {BokehModel} */ glyph) => COLOURS.map((name) => [name, colourOf(glyph, name)])
   .filter(([, colour]) => typeof colour === "string" && colour.startsWith("#")))
 
 /** Give a glyph the colours of this page. @param {BokehModel} glyph */

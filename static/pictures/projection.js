@@ -1,7 +1,7 @@
 // @ts-check
 // Orthographic projection of space, and lines and labels in it.
 
-import { useLook } from "./looks.js"
+import { linePath, useLook } from "./looks.js"
 
 // Radius of the unit sphere, as a share of half the picture.
 export const RADIUS = 0.84
@@ -59,9 +59,7 @@ export function createSheet(ctx, { edge, ratio, text, dark, isFine = false }, tu
     use(look) { useLook(ctx, look, text) },
     /** @param {Vector} from @param {Vector} to */
     line(from, to) {
-      ctx.beginPath()
-      ctx.moveTo(...at(from))
-      ctx.lineTo(...at(to))
+      linePath(ctx, [at(from), at(to)])
       ctx.stroke()
     },
     /**

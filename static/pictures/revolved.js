@@ -6,6 +6,7 @@
 
 import { element } from "../base/elements.js"
 import { LIGHT, HALFWAY } from "./solid.js"
+import { columnsOf, dot, scaled } from "./vectors.js"
 
 // Facets around the axis of a large surface, and the largest number of pixels on a side, in a file and on the screen.  A small
 // surface has every second facet: their sides are then some ten pixels long too, and a quarter of a pixel inside a circle.
@@ -79,8 +80,7 @@ export function outline(radius, height, azimuth, elevation) {
     for (const position of found) {
       const [nearest] = before.toSorted((one, other) => apart(one, position) - apart(other, position))
       if (!(apart(nearest, position) < n / 8)) continue
-      const ends = [at(nearest, last), at(position, psi)]
-      segments.push([0, 1, 2].map((k) => ends.map((end) => end[k])))
+      segments.push(columnsOf([at(nearest, last), at(position, psi)]))
     }
     last = psi
     before = found
@@ -196,14 +196,12 @@ export function createRevolved() {
       const [c, s] = [Math.cos(psi), Math.sin(psi)]
       for (let i = 0; i < radius.length; i += stride) {
         const [ahead, z] = [radius[i] * c, height[i]]
-        let nx = across[i] * s
-        let ny = ce * along[i] - se * across[i] * c
-        let nz = ce * across[i] * c + se * along[i]
-        const front = nz >= 0
-        if (!front) [nx, ny, nz] = [-nx, -ny, -nz]
-        const lit = Math.max(0, nx * LIGHT[0] + ny * LIGHT[1] + nz * LIGHT[2])
-        const shine = Math.max(0, nx * HALFWAY[0] + ny * HALFWAY[1] + nz * HALFWAY[2]) ** 24
-        const rim = (1 - nz) * (1 - nz)
+        const outwards = [across[i] * s, ce * along[i] - se * across[i] * c, ce * across[i] * c + se * along[i]]
+        const front = outwards[2] >= 0
+        const normal = front ? outwards : scaled(outwards, -1)
+        const lit = Math.max(0, dot(normal, LIGHT))
+        const shine = Math.max(0, dot(normal, HALFWAY)) ** 24
+        const rim = (1 - normal[2]) * (1 - normal[2])
         const share = density === null ? 0 : density(i, azimuth + psi)
         const bright = ambient + (1.08 - ambient) * lit
         const glint = front ? 90 * shine : 0

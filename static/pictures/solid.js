@@ -112,31 +112,27 @@ export function createSolid() {
     // A tone changes over one and a half pixels.
     const sharp = columns / (3 * width)
     const [s0, s1, s2] = semi.map((length) => length * sharp)
-    const [n0, n1, n2] = axes.map((axis, k) => axis.map((x) => x / semi[k]))
     for (let row = 0; row < rows; row++) {
       const y = height * (1 - (2 * row + 1) / rows)
       for (let column = 0; column < columns; column++) {
         const x = width * ((2 * column + 1) / columns - 1)
-        let [p, q, r] = [x * ux[0] + y * uy[0], x * ux[1] + y * uy[1], x * ux[2] + y * uy[2]]
-        const b = p * uz[0] + q * uz[1] + r * uz[2]
-        const inside = b * b - a * (p * p + q * q + r * r - 1)
+        const hit = [x * ux[0] + y * uy[0], x * ux[1] + y * uy[1], x * ux[2] + y * uy[2]]
+        const b = dot(hit, uz)
+        const inside = b * b - a * (dot(hit, hit) - 1)
         if (inside < outside) continue
         // Shade the edge beyond the outline too, for smoothing.
         const z = (Math.sqrt(Math.max(0, inside)) - b) / a
-        p += z * uz[0]
-        q += z * uz[1]
-        r += z * uz[2]
-        const [nx, ny, nz] = [p * n0[0] + q * n1[0] + r * n2[0], p * n0[1] + q * n1[1] + r * n2[1],
-          p * n0[2] + q * n1[2] + r * n2[2]]
-        const long = 1 / Math.sqrt(nx * nx + ny * ny + nz * nz)
-        const lit = Math.max(0, (nx * LIGHT[0] + ny * LIGHT[1] + nz * LIGHT[2]) * long)
-        const shine = Math.max(0, (nx * HALFWAY[0] + ny * HALFWAY[1] + nz * HALFWAY[2]) * long) ** 16
-        const octant = clipped(p * s0) * clipped(q * s1) * clipped(r * s2)
+        for (let k = 0; k < 3; k++) hit[k] += z * uz[k]
+        const normal = [dot(hit, ux), dot(hit, uy), dot(hit, uz)]
+        const long = 1 / Math.sqrt(dot(normal, normal))
+        const lit = Math.max(0, dot(normal, LIGHT) * long)
+        const shine = Math.max(0, dot(normal, HALFWAY) * long) ** 16
+        const octant = clipped(hit[0] * s0) * clipped(hit[1] * s1) * clipped(hit[2] * s2)
         const share = 0.5 + 0.5 * octant
         const bright = ambient + (1.08 - ambient) * lit
         const i = 4 * (row * side + column)
         for (let k = 0; k < 3; k++) data[i + k] = bright * (odd[k] + share * (even[k] - odd[k])) + 70 * shine
-        const rim = 1 - Math.max(0, nz * long)
+        const rim = 1 - Math.max(0, normal[2] * long)
         data[i + 3] = glass ? 255 * Math.min(1, GLASS + 0.12 * share + 0.5 * rim * rim + 0.6 * shine) : 255
       }
     }

@@ -37,6 +37,22 @@ export class Source {
 }
 
 /**
+ * Return a function that remembers what `read` returned for an object the first time.
+ * @template {object} Key
+ * @template Result
+ * @param {(key: Key) => Result} read
+ */
+export function atFirst(read) {
+  /** @type {WeakMap<Key, Result>} */
+  const found = new WeakMap()
+  /** @param {Key} key */
+  return (key) => {
+    if (!found.has(key)) found.set(key, read(key))
+    return found.get(key)
+  }
+}
+
+/**
  * Return [look, columns, times] of the curves that have points.
  * @param {Record<string, string>} looks name of a source → look
  * @param {FindSource} source

@@ -9,10 +9,10 @@
 
 import { bodyIn } from "./body.js"
 import { drawPoint } from "./body_parts.js"
-import { cloudsOf } from "./cloud.js"
+import { pointLayer } from "./cloud.js"
 import { FAINT } from "./ghost.js"
 import { circlePath, drawMark, LOOKS } from "./looks.js"
-import { pointLayer } from "./point_layer.js"
+import { moment } from "./moment.js"
 import { curvesOf } from "./sources.js"
 import { drawBeads } from "./swarm.js"
 import { turnable } from "./turnable.js"
@@ -24,14 +24,11 @@ import { circle, graticule, scaled } from "./vectors.js"
  * @returns {SphereGuest}
  */
 function sphereClouds(source) {
-  const clouds = cloudsOf(source)
-  const layer = pointLayer()
-  let t = 0
+  const layer = pointLayer(source)
   return {
-    /** @param {number} value */
-    set t(value) { t = value },
-    paint({ ctx, edge, ratio, px, py, depth }, near) {
-      layer.draw(ctx, Math.round(edge * ratio), ratio, clouds.at(t), ({ count, g1, g2, g3 }, add) => {
+    paint(sheet, near) {
+      const { ratio, px, py, depth } = sheet
+      layer.draw(sheet, ({ count, g1, g2, g3 }, add) => {
         for (let i = 0; i < count; i++) {
           const [x, y, z] = [g1[i], g2[i], g3[i]]
           if (depth(x, y, z) >= 0 === near) add(ratio * px(x, y), ratio * py(x, y, z))
@@ -67,8 +64,6 @@ export function sphere(el, options, source, isShown) {
   const guest = options.clouds !== undefined ? sphereClouds(source(options.clouds))
     : inSpace ? bodyIn(own, source(options.attitude)) : null
   const lines = options.bare ? [circle([0, 0, 1], 0)] : graticule()
-  /** @type {Vector | null} */
-  let point = null
 
   const tracks = () => curvesOf({ ...options.tracks, ...(own.data.look && { "data-orbit": own.data.look }) }, source, ["g1", "g2", "g3"])
 
@@ -126,16 +121,14 @@ export function sphere(el, options, source, isShown) {
     const { ctx, px, py, depth } = on
     drawBeads(ctx, source("data-swarm"), inSpace ? ["mx", "my", "mz"] : ["g1", "g2", "g3"], ([x, y, z], i) => (
       [px(x[i], y[i]), py(x[i], y[i], z[i]), depth(x[i], y[i], z[i]) >= 0]))
-    if (point !== null) drawPoint(on, point, on.isNear(point))
+    if (inSpace || moment.state?.g1 === undefined) return
+    const { g1, g2, g3 } = moment.state
+    drawPoint(on, [g1, g2, g3], on.isNear([g1, g2, g3]))
   }
 
   return turnable(el, inSpace ? "solid" : "sphere", {
     name: options.name, title: options.title ?? "Poisson sphere", what: "sphere", isShown,
     sources: [options.name, ...Object.keys(options.tracks), options.clouds, options.attitude, "data-swarm"].filter(Boolean).map(source),
-    hear({ t, state }) {
-      point = inSpace || state?.g1 === undefined ? null : [state.g1, state.g2, state.g3]
-      if (guest !== null) guest.t = t
-    },
     paint, paintMoving: guest === null ? paintPoint : null, take: tracks,
     paintGhost(on, kept) {
       for (const [name, track] of kept) {

@@ -6,10 +6,8 @@
 
 import { button, element, icon, relabel } from "../base/elements.js"
 import { listen, tell } from "../base/bus.js"
-import { isEmbedded } from "../base/embedding.js"
 import { isTaken, onKeys } from "../base/keys.js"
-import { isPresenting, setType, zoom } from "../base/presenting.js"
-import { PHONE } from "../base/windows.js"
+import { isEmbedded, isPresenting, PHONE, setType, zoom } from "../base/modes.js"
 import { arrange, onPhone } from "./arrange.js"
 import { isFolded, labelOf, nameOf } from "./picture.js"
 import { sizePlot } from "./plot_looks.js"
@@ -105,7 +103,7 @@ export function createStage(shelf, gallery) {
     const second = alone.length > 0 || shelf.clientHeight < LOW || leads.length + others.length < 2 ? [] : [leads[1] ?? others[0]]
     const seen = PHONE.matches ? [leads[0], ...second] : [...leads, ...others]
     const leading = PHONE.matches ? 1 : leads.length
-    const isAlone = isEmbedded() || isPresenting() || alone.length > 0 || scene.cells.length === 1
+    const isAlone = isEmbedded || isPresenting() || alone.length > 0 || scene.cells.length === 1
     const names = isAlone ? [] : scene.cells.filter(({ dataset }) => PHONE.matches || "label" in dataset)
     const { boxes, names: frame } = PHONE.matches ? onPhone(viewport(type), second.length, names.length)
       : arrange(viewport(type), leading, others.length, names.length)
@@ -136,9 +134,10 @@ export function createStage(shelf, gallery) {
     /** @type {HTMLElement} */
     const corner = cell.querySelector(".corner")
     const isChosen = large.includes(nameOf(cell))
-    const title = `${isChosen ? "Back to the usual lead" : isLeading ? "Lead alone" : "Lead"} (${i + 1})`
+    const action = isChosen ? "Back to the usual lead" : isLeading ? "Lead alone" : "Lead"
+    const title = `${action} (${i + 1})`
     if (corner.title === title) return
-    relabel(corner, isChosen ? REDUCE : ENLARGE, title, `${title.slice(0, title.indexOf(" ("))}: ${labelOf(cell) || `picture ${i + 1}`}`)
+    relabel(corner, isChosen ? REDUCE : ENLARGE, title, `${action}: ${labelOf(cell) || `picture ${i + 1}`}`)
     corner.ariaPressed = String(isChosen)
   }
 

@@ -6,8 +6,9 @@
 // shorter way round, and those of the kind "step" stay.  From the sample `until` on a motion is not known to half a pixel, and not
 // drawn; shortly before, it fades.  See "scenes/framework/swarm.py".
 
-import { listen } from "../base/bus.js"
-import { circlePath, shade } from "./looks.js"
+import { drawDisc, shade } from "./looks.js"
+import { moment } from "./moment.js"
+import { atFirst } from "./sources.js"
 
 const FIRST = 32767
 const TURN = 2 * Math.PI
@@ -20,10 +21,6 @@ const SIZES = [[50, 5], [200, 4], [Infinity, 2]]
 /** Return an angle between −π and π. @param {number} angle */
 const wrapped = (angle) => angle - TURN * Math.round(angle / TURN)
 
-// The time of the player.
-let now = 0
-listen({ time({ t }) { now = t } })
-
 /** The motions of a swarm. */
 export class Swarm {
   /** @param {Data} data */
@@ -33,9 +30,6 @@ export class Swarm {
     /** @type {Map<string, {t: number, values: Float32Array}>} */
     this.columns = new Map()
   }
-
-  /** @param {string} name */
-  has(name) { return this.data.names.includes(name) }
 
   /** Return a column of all motions at the time t. @param {string} name @param {number} t */
   at(name, t) {
@@ -84,22 +78,7 @@ export class Swarm {
   }
 }
 
-/** @type {WeakMap<Source, {data: Data, swarm: Swarm | null}>} */
-const swarms = new WeakMap()
-
-/**
- * Return the swarm of a source if it has these columns, otherwise null.
- * @param {Source} source
- * @param {string[]} names
- * @returns {Swarm | null}
- */
-function swarmOf(source, names) {
-  if (swarms.get(source)?.data !== source.data) {
-    swarms.set(source, { data: source.data, swarm: source.data.count > 0 ? new Swarm(source.data) : null })
-  }
-  const { swarm } = swarms.get(source)
-  return swarm !== null && names.every((name) => swarm.has(name)) ? swarm : null
-}
+const swarmOf = atFirst((/** @type {Data} */ data) => (data.count > 0 ? new Swarm(data) : null))
 
 /**
  * Draw the beads of a swarm whose columns have these names; nothing without such a swarm.
@@ -109,22 +88,20 @@ function swarmOf(source, names) {
  * @param {(columns: Float32Array[], i: number) => [x: number, y: number, isNear?: boolean]} pointOf returns the point of motion i
  */
 export function drawBeads(ctx, source, names, pointOf) {
-  const swarm = swarmOf(source, names)
-  if (swarm === null) return
+  const swarm = swarmOf(source.data)
+  if (!swarm || !names.every((name) => swarm.data.names.includes(name))) return
   const { count, palette } = swarm.data
-  const columns = names.map((name) => swarm.at(name, now))
+  const columns = names.map((name) => swarm.at(name, moment.t))
   const [, radius] = SIZES.find(([most]) => count <= most)
   ctx.save()
   ctx.lineWidth = 0.7
   ctx.strokeStyle = shade("#101010")
   for (let i = 0; i < count; i++) {
-    const opacity = swarm.opacity(i, now)
+    const opacity = swarm.opacity(i, moment.t)
     if (opacity === 0) continue
     const [x, y, isNear = true] = pointOf(columns, i)
     ctx.globalAlpha = (isNear ? 1 : 0.35) * opacity
-    ctx.fillStyle = palette[Math.floor(i * palette.length / count)]
-    circlePath(ctx, x, y, radius)
-    ctx.fill()
+    drawDisc(ctx, x, y, radius, palette[Math.floor(i * palette.length / count)])
     if (radius > 2) ctx.stroke()
   }
   ctx.restore()

@@ -8,7 +8,7 @@
 import { drawPoint, drawTrail, TRAIL } from "./body_parts.js"
 import { FAINT } from "./ghost.js"
 import { LOOKS } from "./looks.js"
-import { between } from "./moment.js"
+import { between, moment } from "./moment.js"
 import { createRevolved, outline } from "./revolved.js"
 import { curvesOf } from "./sources.js"
 import { drawBeads } from "./swarm.js"
@@ -51,9 +51,10 @@ export function torus(el, options, source, isShown) {
   const own = source(options.name)
   // The surface is shaded separately for the screen and for files.
   const [onScreen, inFiles] = [createRevolved(), createRevolved()]
-  /** @param {Pick<Sheet, "isFine">} sheet */
+  /** @param {Sheet} sheet */
   const surfaceOf = ({ isFine }) => (isFine ? inFiles : onScreen)
-  let t = 0
+  /** Return whether the surface does not hide a point on it. @param {Sheet} sheet @param {Vector} point */
+  const isSeen = (sheet, point, slack = ON_IT) => surfaceOf(sheet).shows(...sheet.at(point), sheet.depth(...point), slack)
 
   const curves = () => curvesOf(options.curves, source, ["x", "y", "z"])
 
@@ -77,8 +78,8 @@ export function torus(el, options, source, isShown) {
     if (!(own.data.radius?.length > 2)) return
     const on = onSurface(sheet)
     drawBeads(sheet.ctx, source("data-swarm"), ["x", "y", "z"], ([x, y, z], i) => {
-      const at = sheet.at([x[i], y[i], z[i]])
-      return [...at, surfaceOf(sheet).shows(...at, sheet.depth(x[i], y[i], z[i]), ON_IT)]
+      const point = [x[i], y[i], z[i]]
+      return [...sheet.at(point), isSeen(sheet, point)]
     })
     for (const [name, curve, times] of curves()) {
       if (times === undefined) continue
@@ -87,7 +88,7 @@ export function torus(el, options, source, isShown) {
       sheet.ctx.globalAlpha = 1
       /** @type {Vector} */
       const position = path.map((column) => column[column.length - 1])
-      drawPoint(sheet, position, surfaceOf(sheet).shows(...sheet.at(position), sheet.depth(...position), ON_IT))
+      drawPoint(sheet, position, isSeen(sheet, position))
     }
   }
 
@@ -103,16 +104,14 @@ export function torus(el, options, source, isShown) {
    * @param {boolean} near
    * @param {number} slack
    */
-  function strokeAll({ ctx, px, py, depth, addParts, isFine }, list, near, slack) {
-    const surface = surfaceOf({ isFine })
-    ctx.beginPath()
-    for (const [X, Y, Z] of list) {
-      addParts([X, Y, Z], (i) => {
-        const [x, y, z] = [0.5 * (X[i - 1] + X[i]), 0.5 * (Y[i - 1] + Y[i]), 0.5 * (Z[i - 1] + Z[i])]
-        return surface.shows(px(x, y), py(x, y, z), depth(x, y, z), slack) === near
-      })
+  function strokeAll(sheet, list, near, slack) {
+    sheet.ctx.beginPath()
+    for (const curve of list) {
+      const [X, Y, Z] = curve
+      sheet.addParts(curve, (i) => (
+        isSeen(sheet, [0.5 * (X[i - 1] + X[i]), 0.5 * (Y[i - 1] + Y[i]), 0.5 * (Z[i - 1] + Z[i])], slack) === near))
     }
-    ctx.stroke()
+    sheet.ctx.stroke()
   }
 
   /** @param {Sheet} on @param {Columns[]} edge @param {number[][]} ring @param {boolean} near */
@@ -131,9 +130,9 @@ export function torus(el, options, source, isShown) {
     }
   }
 
-  /** Return the end of a curve before the time t. @param {Columns} curve @param {ArrayLike<number>} times @returns {number[][]} */
+  /** Return the end of a curve before the time of the player. @param {Columns} curve @param {ArrayLike<number>} times @returns {number[][]} */
   function until(curve, times) {
-    const [i, s] = between(times, t)
+    const [i, s] = between(times, moment.t)
     return curve.map((column) => {
       const path = Array.prototype.slice.call(column, Math.max(0, i - TRAIL), i + 1)
       return [...path, column[i] + s * (column[i + 1] - column[i])]
@@ -142,7 +141,7 @@ export function torus(el, options, source, isShown) {
 
   return turnable(el, "torus", {
     name: options.name, title: "The torus in space", what: "torus", isShown,
-    sources: [options.name, ...Object.keys(options.curves), "data-swarm"].map(source), hear(now) { t = now.t }, paint, paintMoving,
+    sources: [options.name, ...Object.keys(options.curves), "data-swarm"].map(source), paint, paintMoving,
     take: () => ({ radius: own.data.radius, height: own.data.height, list: curves() }),
     paintGhost(on, { radius, height, list }) {
       if (!(radius?.length > 2)) return

@@ -18,15 +18,14 @@ const HOME = [0.6, 0.35]
  * @param {HTMLElement} el
  * @param {string} className
  * @param {{name: string, title: string, what: string, isShown: () => boolean, sources: Source[],
- *   hear: (now: PageEvents["time"]) => void, paint: (on: Sheet) => void, paintMoving?: ((on: Sheet) => void) | null,
+ *   paint: (on: Sheet) => void, paintMoving?: ((on: Sheet) => void) | null,
  *   take: () => Image, paintGhost: (on: Sheet, image: Image) => void}} picture its name and title, what turns ("sphere"), and
- *   whether its scene is on show; `sources` are those at whose change it is painted, hear(now) gets the time of the player, and
- *   paintMoving draws what moves in time, on a canvas above: the rest is not painted again for it.  take() returns what
- *   paintGhost draws of an earlier state
+ *   whether its scene is on show; `sources` are those at whose change it is painted, and paintMoving draws what moves in time, on a
+ *   canvas above: the rest is not painted again for it.  take() returns what paintGhost draws of an earlier state
  * @returns {Drawn}
  */
 export function turnable(el, className, {
-  name, title, what, isShown, sources, hear, paint, paintMoving = null, take, paintGhost,
+  name, title, what, isShown, sources, paint, paintMoving = null, take, paintGhost,
 }) {
   let turn = HOME
   /** @type {Image | null} */
@@ -77,12 +76,7 @@ export function turnable(el, className, {
     // The picture of another scene may have been rotated meanwhile.
     enter() { if (isShown()) askForTurn() },
     turn([turned, ...angles]) { if (isShown() && turned === name && angles.every(Number.isFinite)) rotate(...angles) },
-    time(now) {
-      if (!isShown()) return
-      hear(now)
-      const moving = above ?? own
-      moving.request()
-    },
+    time() { if (isShown()) (above ?? own).request() },
   })
   for (const source of sources) source.watch(request)
   return {

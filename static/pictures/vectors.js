@@ -31,6 +31,9 @@ export const unit = (v) => scaled(v, 1 / Math.hypot(...v))
  */
 export const plus = (u, v, factor = 1) => u.map((x, k) => x + factor * v[k])
 
+/** Return points as columns [xs, ys, zs]. @param {Vector[]} points */
+export const columnsOf = (points) => [0, 1, 2].map((k) => points.map((point) => point[k]))
+
 /**
  * Return the circle (γ, axis) = height on the unit sphere, as columns.
  * @param {Vector} axis a unit vector
@@ -43,23 +46,14 @@ export function circle(axis, height, count = 96) {
   const e = unit(Math.abs(a) < 0.9 ? [0, c, -b] : [-c, 0, a])
   const g = cross(axis, e)
   const radius = Math.sqrt(Math.max(0, 1 - height * height))
-  /** @type {number[][]} */
-  const points = [[], [], []]
-  for (let i = 0; i <= count; i++) {
+  return columnsOf(Array.from({ length: count + 1 }, (_, i) => {
     const s = (2 * Math.PI * i) / count
-    for (let k = 0; k < 3; k++) {
-      points[k].push(height * axis[k] + radius * (Math.cos(s) * e[k] + Math.sin(s) * g[k]))
-    }
-  }
-  return points
+    return axis.map((x, k) => height * x + radius * (Math.cos(s) * e[k] + Math.sin(s) * g[k]))
+  }))
 }
 
 /** Return three parallels and six meridians, each as columns. */
 export function graticule() {
-  const lines = [-0.5, 0, 0.5].map((height) => circle([0, 0, 1], height))
-  for (let i = 0; i < 6; i++) {
-    const s = (Math.PI * i) / 6
-    lines.push(circle([Math.cos(s), Math.sin(s), 0], 0))
-  }
-  return lines
+  const meridians = Array.from({ length: 6 }, (_, i) => Math.PI * i / 6).map((s) => circle([Math.cos(s), Math.sin(s), 0], 0))
+  return [...[-0.5, 0, 0.5].map((height) => circle([0, 0, 1], height)), ...meridians]
 }

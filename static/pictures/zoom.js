@@ -8,7 +8,7 @@
 
 import { listen, tell } from "../base/bus.js"
 import { button } from "../base/elements.js"
-import { isEmbedded } from "../base/embedding.js"
+import { isEmbedded } from "../base/modes.js"
 
 const REST = 250
 // A click waits so long for a second one.
@@ -126,7 +126,7 @@ export function connectZoom(host, zoom, { name, isComputed, frame, axes, invert,
 
   host.addEventListener("wheel", (event) => {
     // There the wheel scrolls the page around it, unless it is a pinch.
-    if (isEmbedded() && !event.ctrlKey) return
+    if (isEmbedded && !event.ctrlKey) return
     event.preventDefault()
     const point = [pointOf(event)]
     const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? LINE : 1)
