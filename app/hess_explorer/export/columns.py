@@ -192,12 +192,12 @@ def columns_of(data: PictureData) -> Table:
     known = dict.fromkeys(name for block in blocks for name in block)
     names = dict.fromkeys(["layer", *(name for name in INDICES if name in known), *known])
     return Table(
-        {name: as_read_only(_column(name, blocks)) for name in names}, {**data.facts, **angles_of(data)}, data.names
+        {name: as_read_only(_column(name, blocks)) for name in names}, {**data.facts, **angle_facts(data)}, data.names
     )
 
 
-def angles_of(data: PictureData) -> dict[str, dict[str, str]]:
-    """Return for each column of angles, "layer.name", whether it is continuous over full turns."""
+def angle_facts(data: PictureData) -> dict[str, dict[str, str]]:
+    """Return the fact "angles" of a table: the convention of each column of angles, by "layer.name"; or no fact."""
     axes = dict(zip("xy", data.names, strict=False))
     angles = {*ANGLES, *getattr(type(data.state), "angles", ())}
     found: dict[str, bool] = {}

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from hess_explorer.export.columns import GRID, INDICES, angles_of, columns_of, is_column, layers_of
+from hess_explorer.export.columns import GRID, INDICES, angle_facts, columns_of, is_column, layers_of
 from hess_explorer.export.picture_data import PictureData
 
 
@@ -37,7 +37,7 @@ def _facts(data: PictureData) -> dict[str, Any]:
     """Return the metadata, the axes and the kinds of angles."""
     ends = () if data.axes is None else (data.axes.x, data.axes.y)
     axes = {side: [name, *map(float, range_)] for side, name, range_ in zip("xy", data.names, ends, strict=False)}
-    return {**data.facts, **({"axes": axes} if axes else {}), **angles_of(data)}
+    return {**data.facts, **({"axes": axes} if axes else {}), **angle_facts(data)}
 
 
 def _besides(data: PictureData) -> dict[str, Any]:

@@ -338,7 +338,7 @@ SCENE = Scene(
         Answer("Each dot is one return: dots on a curve look regular, a cloud of dots looks chaotic."),
     ),
     title="Euler–Poisson: sections",
-    summary="A heavy body near the Hess case: two stochastic layers with a barrier between them, a meandering torus.",
+    summary="A heavy body in the Hess case and near it: two stochastic layers with a barrier, and a meandering torus.",
     swarm=turned_swarm(lambda s, states: dict(zip("lx", s.poincare.points_of(states).T, strict=True)), angles=("l",)),
     tracks={"orbit": EulerPoisson.track},
     angles=("l",),

@@ -268,7 +268,7 @@ SCENE = Scene(
                     track="orbit",
                     columns=("t", "height"),
                     color=theme.STABLE,
-                    label="path of the centre of mass",
+                    label="height of the centre of mass",
                 ),
             ),
         ),

@@ -110,6 +110,8 @@ def connection(workers: str | int | None, scheduler: str | Client | None) -> Ite
             raise WorkersLost(
                 f"No Dask scheduler with a worker responded at {scheduler} within {_WAIT:g} s: start one with "
                 "`dask scheduler`, and workers with `dask worker`."
+                if scheduler
+                else f"The local workers did not start within {_WAIT:g} s: choose fewer workers, or workers=1."
             ) from error
         # Dask raises these errors in a script without `if __name__ == "__main__"`, and for tls:// without certificates.
         except (TypeError, RuntimeError) as error:

@@ -326,7 +326,10 @@ def _run(states: Array, p: Array, times: Array, level: Level, max_steps: int) ->
     )
     require_finite_states(out)
     if not np.all(np.abs(out[..., 1]) > _CLOSEST):
-        raise WorkLimit("The cloud comes closer to N than double precision can resolve: choose a shorter time span.")
+        raise WorkLimit(
+            "The cloud comes closer to the line of equilibria s = 0 than double precision can resolve: choose a "
+            "shorter time span."
+        )
     out[..., 1] = np.log(np.abs(out[..., 1]))
     return out, int(each.sum())
 
@@ -429,7 +432,7 @@ def histogram(cloud: Cloud, frame: int, edges: Array) -> Array:
     Returns
     -------
     ndarray, shape (k,)
-        Share of the points per unit of ln|s|, between two edges each.
+        Share of the points in each bin, per unit of ln|s|.
     """
     return _shares(cloud.log_s[:, frame], edges)
 
@@ -440,14 +443,14 @@ def occupation(cloud: Cloud, edges: Array) -> Array:
     Parameters
     ----------
     cloud : Cloud
-        The cloud.
+        Cloud at evenly spaced times.
     edges : ndarray, shape (k + 1,)
         Equidistant values of ln|s|.
 
     Returns
     -------
     ndarray, shape (k,)
-        Share of time that the cloud spends per unit of ln|s|, between two edges each.
+        Share of the time that the cloud spends in each bin, per unit of ln|s|.
     """
     before, after = cloud.log_s[:, :-1, None], cloud.log_s[:, 1:, None]
     return _shares(before + (after - before) * ((np.arange(_PARTS) + 0.5) / _PARTS), edges)

@@ -221,7 +221,7 @@ class AdditionalIntegral:
         Parameters
         ----------
         omega : array_like of float, shape (2,)
-            Angular velocity (ω1, ω2).
+            Angular velocity (ω1, ω2), not 0.
         level : float
             Value of F2, any finite number.
 
@@ -230,7 +230,7 @@ class AdditionalIntegral:
         n : ndarray of float, shape (3,)
             Unit vector along the axis of the circle.
         d : float
-            Distance of its plane from the origin: (n, γ) = d.
+            Signed distance of its plane from the origin: (n, γ) = d.  There is no such γ if |d| > 1.
         """
         V = self.vector(omega)
         length = float(np.linalg.norm(V))
@@ -352,7 +352,9 @@ def additional_integral(k: int, body: SuslovBody) -> AdditionalIntegral:
     """
     permuted = body.I23 == 0.0
     if permuted == (body.I13 == 0.0):
-        raise InvalidParameter("F2 is known only if one of I13, I23 is 0 and the other is not: set one of them to 0.")
+        raise InvalidParameter(
+            "F2 is known only if exactly one of I13, I23 is 0: choose one of them 0 and the other nonzero."
+        )
     I22, I23 = (body.I11, -body.I13) if permuted else (body.I22, body.I23)
     exact = coefficients(k, I22, I23)
     try:

@@ -42,7 +42,7 @@ def _short(number: Fraction) -> str:
 
 
 def statement_text(proof: Proof | EdgeProof) -> str:
-    """Return the proved statement in words.
+    """Return the result of a proof in words: the proved statement, or that it is undecided.
 
     Parameters
     ----------

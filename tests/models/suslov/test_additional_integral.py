@@ -106,6 +106,6 @@ def test_no_order(body):
 test_what_has_no_additional_integral_is_refused = refused(
     (lambda: I11_of(2, 1.0, 0.4), "odd k from 1 to 15"),
     (lambda: coefficients(3, Fraction(1), Fraction(0)), "a nonzero I23"),
-    (lambda: additional_integral(3, SuslovBody(2.0, 1.0, 0.3, 0.4)), "set one of them to 0"),
+    (lambda: additional_integral(3, SuslovBody(2.0, 1.0, 0.3, 0.4)), "exactly one of I13, I23 is 0"),
     (lambda: integral_of(case_1(3)).at_fixed_points(0.0), "choose h > 0"),
 )

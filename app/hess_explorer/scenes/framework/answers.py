@@ -11,15 +11,15 @@ S = TypeVar("S")
 
 @dataclass(frozen=True)
 class Answer(Generic[S]):
-    """A sentence on the states for which it holds.
+    """Sentence above the pictures, for the states that satisfy a condition.
 
     Parameters
     ----------
     sentence : str
         At most 90 characters, which fit on a line.
     condition : callable
-        `condition(state)` returns True if the sentence holds, by a closed form or a result that the pictures need; by
-        default always.
+        `condition(state)` returns True if the sentence is true of the state; by default always.  It has to be cheap: a
+        closed form, or a result that the pictures compute anyway.
     """
 
     sentence: str

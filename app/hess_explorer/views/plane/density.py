@@ -43,7 +43,7 @@ def layers(
     labels: tuple[str, ...],
     colors: tuple[str, ...],
 ) -> Layers[S]:
-    """Return a layer of pixels for each kind of orbits, empty without `tones`."""
+    """Return one layer of pixels per kind of orbit; a layer is empty if `tones(state)` has no array for its kind."""
 
     def of(i: int) -> Callable[[S], Array | None]:
         def cells(state: S) -> Array | None:

@@ -175,7 +175,10 @@ class CloudPlane(Picture[S]):
 
 
 def density_axes(clouds: Clouds) -> Axes:
-    """Return logarithmic axes that contain |s| of the cloud; the curve c/|s| connects two corners."""
+    """Return logarithmic axes for the density over |s|, without the smallest 2 % of |s| at the end.
+
+    The vertical axis extends 1.5 decades below and above the curve c/|s|.
+    """
     lowest = max(SMALLEST, float(np.quantile(clouds.cloud.log_s[:, -1], 0.02)))
     low = math.floor(lowest / math.log(10.0))
     high = max(math.ceil(float(clouds.density.log_s[-1]) / math.log(10.0)), low + 1)

@@ -152,7 +152,7 @@ split_picture = Plot[HessSplit](
             _values,
             color=theme.UNSTABLE,
             size=10,
-            label="distance of the separatrices",
+            label="distance between the separatrices",
         ),
         ring("here", lambda s: [(s.split.away, s.split.value)] if s.split else [], color=theme.INK),
     ),

@@ -86,7 +86,10 @@ class Costs:
         ]
 
     def level(self, name: str) -> Sequence[Sequence[float]] | None:
-        """Return the errors and times in milliseconds of one level for all kinds; None without measurements."""
+        """Return the errors and times of one level for the measured trials; None without any.
+
+        The errors are in units of the largest invisible error, the times in milliseconds.
+        """
         return [*zip(*self._at(dict.fromkeys(self.trials, name)), strict=True)] or None
 
     def rings(self) -> list[tuple[float, float]]:
