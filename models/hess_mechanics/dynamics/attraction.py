@@ -123,7 +123,7 @@ class Arrivals:
     number : ndarray of int
         Number of the set, `LOST` or `NOWHERE`.
     crossings : ndarray of int
-        The first crossing in the set, of the same shape.
+        Index of the first crossing in the set, of the same shape; `CROSSINGS` where no set is reached.
     """
 
     number: NDArray[np.int16]
@@ -158,7 +158,7 @@ def _joined(cells: Sequence[tuple[NDArray[np.int64], NDArray[np.int64]]]) -> NDA
 
 
 def recurrent_sets(orbits: Orbits) -> RecurrentSets:
-    """Return the sets that at least two of 256 orbits approach, at most 12.
+    """Return the sets, at most 12, each approached by at least two of 256 orbits from all over the section.
 
     Parameters
     ----------
@@ -168,7 +168,7 @@ def recurrent_sets(orbits: Orbits) -> RecurrentSets:
     Returns
     -------
     RecurrentSets
-        The sets.
+        The sets; none if no orbit keeps crossing the section.
 
     Raises
     ------

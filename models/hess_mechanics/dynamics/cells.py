@@ -27,7 +27,7 @@ def centres(low: float, high: float, count: int) -> Array:
     Returns
     -------
     ndarray, shape (count,)
-        The centres, in increasing order.
+        The centres, from `low` to `high`.
     """
     return low + (np.arange(count) + 0.5) * (high - low) / count
 
@@ -38,7 +38,7 @@ def occupied_cells(points: Array, ranges: Sequence[tuple[float, float]], across:
     Parameters
     ----------
     points : ndarray, shape (n, 2)
-        Coordinates of the points.
+        Coordinates of the points; a point outside the ranges counts in the nearest cell.
     ranges : sequence of (float, float)
         Range of each coordinate, which the cells fill.
     across : int, default 32
@@ -73,6 +73,6 @@ def even_points(count: int, origin: float = 0.0) -> Array:
     Returns
     -------
     ndarray, shape (2, count)
-        Coordinates of the points, 0 to 1.
+        Coordinates of the points, 0 ≤ x, y < 1.
     """
     return np.asarray((origin + _PLASTIC * np.arange(1, count + 1)) % 1.0)

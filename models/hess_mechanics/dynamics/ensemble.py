@@ -53,7 +53,7 @@ def integrate_many(
     parameters : ndarray, shape (q,)
         Parameters of the system.
     times : ndarray, shape (m,)
-        Times, monotonic from 0.
+        Times, monotonic from 0 forward or backward.
     level : Level
         Order and tolerance.
     longest : float
@@ -124,7 +124,7 @@ def ensemble(
     Raises
     ------
     InvalidParameter
-        If a number is not finite, or the times are not monotonic.
+        If a number is not finite, the times are not monotonic, or there is no initial state.
     WorkLimit
         If the result would be too large.
 

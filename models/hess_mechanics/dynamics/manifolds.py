@@ -59,17 +59,18 @@ class Manifold(Result):
     side : int
         1 along the direction of the saddle, −1 against it.
     multiplier : float
-        Multiplier of F on the manifold, > 1.
+        Multiplier on the manifold, > 1, of F: the map (its inverse if `stable`) over one period of the saddle, or over
+        two if the multiplier of one is negative.
     points : ndarray, shape (n, 2)
         Polyline along the branch; angles continue without jumps.
     parameters : ndarray, shape (n,)
-        Parameter τ of each point.
+        Parameter τ of each point, increasing by 1 under F; −∞ at the saddle, which is the first point.
     lengths : ndarray, shape (n,)
-        Length along the curve.
+        Length along the polyline from the saddle, in units of the coordinates.
     sagitta : float
-        Largest distance between the curve and the polyline.
+        Largest distance between the curve and the polyline, in units of the coordinates.
     error_estimate : float
-        Estimated error of the points across the curve, ≥ 0, in units of the coordinates.
+        Estimated error of the points across the curve, ≥ 0, in units of the coordinates; ∞ if unknown.
     end_reason : str
         Reason why the branch ends.
     level : str
@@ -94,12 +95,12 @@ class Manifold(Result):
 
     @property
     def length(self) -> float:
-        """Length of the branch."""
+        """Length of the branch, in units of the coordinates."""
         return float(self.lengths[-1])
 
     @property
     def status(self) -> Status:
-        """OK if the error of the points is at most the sagitta."""
+        """OK if the error of the points is at most the sagitta, otherwise PROMISE_NOT_MET."""
         return Status.OK if self.error_estimate <= self.sagitta else Status.PROMISE_NOT_MET
 
     def labels(self) -> Labels:
@@ -243,7 +244,7 @@ def manifold(
     Returns
     -------
     Manifold
-        The branch, as a polyline.
+        The branch, as a polyline; it may end before `length`, with a reason.
 
     Raises
     ------
@@ -394,7 +395,7 @@ class Intersection:
     angle : float
         Angle between the manifolds, in radians, 0 to π/2.
     error : float
-        Estimated error of the point, ≥ 0.
+        Estimated error of the point, ≥ 0, in units of the coordinates.
     is_certain : bool
         True if the manifolds change sides between one chord before and one chord after the crossing, by more than their
         errors; False where they run together.
@@ -530,7 +531,7 @@ def heights_at(curve: Manifold, axis: int, value: float) -> Array:
     Raises
     ------
     NotConverged
-        If there is no such point.
+        If the manifold does not reach the value.
     """
     along = curve.points[:, axis] - value
     change = np.flatnonzero((along[1:-1] <= 0.0) != (along[2:] <= 0.0)) + 1
@@ -573,12 +574,12 @@ def split(unstable: Manifold, stable: Manifold, axis: int, value: float) -> tupl
     distance : float
         Other coordinate of the unstable manifold minus that of the stable one.
     error : float
-        Its estimated error, ≥ 0.
+        Its estimated error, ≥ 0: the sum of the errors of both manifolds across their curves.
 
     Raises
     ------
     NotConverged
-        If one of them never has this value.
+        If one of them does not reach this value.
     """
     gaps = heights_at(unstable, axis, value)[:, None] - heights_at(stable, axis, value)
     closest = gaps.ravel()[int(np.argmin(np.abs(gaps)))]

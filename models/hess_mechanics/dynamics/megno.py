@@ -54,7 +54,7 @@ class Megno(Result):
     duration : float
         Time of each motion, positive, in units T.
     values : ndarray, shape (n,)
-        Ȳ of each motion.
+        Ȳ of each motion; NaN if it ends before `duration`.
     divergence, divergence_error : ndarray, shape (n,)
         Weighted mean of div ẏ over the last four fifths of the time, and its standard error, both in 1/T.
     windows : ndarray, shape (n, 4)
@@ -63,7 +63,7 @@ class Megno(Result):
         For each motion why it is not chaotic, whatever Ȳ is: it rests, escapes or closes, or its phase space has two
         dimensions besides its integrals; empty where there is no such reason.
     ends : ndarray, shape (n,)
-        Time up to which each motion was followed; the numbers of one that ends before `duration` are NaN.
+        Time up to which each motion was followed, positive, in units T; NaN if it is not known.
     reasons : tuple of str
         Why each motion ends before `duration`, with the place of its end; empty for one that does not.
     level : str
@@ -85,7 +85,7 @@ class Megno(Result):
 
     @property
     def chaotic(self) -> Mask:
-        """True for each motion whose neighbours part exponentially, unless `no_chaos` gives a reason, shape (n,)."""
+        """True for each motion with Ȳ > 3, unless `no_chaos` gives a reason; shape (n,)."""
         return np.asarray((self.values > CHAOTIC) & ~np.array(self.no_chaos, bool))
 
     @property
@@ -99,7 +99,7 @@ class Megno(Result):
         Returns
         -------
         Labels
-            The three arrays over the motions.
+            Ȳ, the divergence and its error, the ends and the reasons over the motions.
         """
         return Labels(
             {},
@@ -131,7 +131,7 @@ def longest_duration(body: Body, start: Sequence[float] | Array) -> float:
     Returns
     -------
     float
-        The time span, in units of the problem.
+        The time span, positive, in units T.
 
     Raises
     ------
@@ -157,7 +157,7 @@ def megno(
     states : array_like, shape (n, d)
         Initial states.
     duration : float
-        Time span, in units of the problem; negative for backward in time.
+        Time span, nonzero, in units T; negative for backward in time.
     accuracy : str or Level, default "standard"
         Accuracy level.
     threads : int, optional
@@ -172,7 +172,7 @@ def megno(
     Raises
     ------
     InvalidParameter
-        If a number is not finite.
+        If a number is not finite, or the time span is 0.
     WorkLimit
         If the time span is too long.
 

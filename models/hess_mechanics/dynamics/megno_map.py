@@ -41,10 +41,10 @@ class MegnoMap(Result):
     values : ndarray, shape (n, m)
         Ȳ after the time `duration`; NaN where no motion crosses the section, or it ends before.
     kind : ndarray of int, shape (n, m)
-        0 regular, 1 chaotic, plus 2 where phase volume shrinks by more than its error; 4 where the motion
-        or a neighbour ends earlier; −1 where no motion crosses the section.
+        0 not chaotic, 1 chaotic, plus 2 where phase volume shrinks by more than three standard errors; 4 where the
+        motion or a neighbour ends earlier; −1 where no motion crosses the section.
     ends : ndarray, shape (n, m)
-        Time up to which each motion was followed; NaN where that is not known.
+        Time up to which each motion was followed, positive, in units T; NaN where that is not known.
     duration : float
         Time of each motion, positive, in units T.
     level : str
@@ -128,7 +128,7 @@ def row_of_cells(
     row : int
         Index of the row, from below.
     duration : float
-        Time span.
+        Time span, nonzero, in units T; negative for backward in time.
     accuracy : str or Level
         Accuracy level.
 
@@ -170,7 +170,7 @@ def megno_map(
     window : ((float, float), (float, float)), optional
         Corners (x0, y0) and (x1, y1) of the window.  By default the whole section.
     duration : float, default 200
-        Time span; negative for backward in time.
+        Time span, nonzero, in units T; negative for backward in time.
 
     Returns
     -------
@@ -272,9 +272,9 @@ def corners(section: PoincareSection, window: Window | None) -> Window:
 
 
 def time_of(section: PoincareSection, turns: float) -> float:
-    """Return the time of some typical turns, in multiples of 1/ν times the slowness of the section.
+    """Return the time of some typical turns of the motions on a section: `turns` × slowness/ν.
 
-    ν is the median over points all over the section.
+    ν is the median, over points all over the section, of the frequency of the system.
 
     Parameters
     ----------
@@ -286,7 +286,7 @@ def time_of(section: PoincareSection, turns: float) -> float:
     Returns
     -------
     float
-        The time, in units of the problem.
+        The time, in units T.
 
     Raises
     ------

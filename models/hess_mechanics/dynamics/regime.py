@@ -128,18 +128,19 @@ class Regime(Result):
     kind : MotionKind
         Kind of the motion.
     points : Array, shape (n, d)
-        Its crossings after the transient.
+        Its crossings after the transient; all that were found if the motion did not return.
     duration : float
         Time of MEGNO, positive, in units T; for a motion that did not return, the time limit.
     period : int
         Number of returns after which it repeats; 0 if no period was found.
     megno : float
-        Ȳ after that time, the median over the ensemble; near 2 for regular motions, > 3 for chaotic ones.
+        Ȳ after that time: of the motion if it is periodic, otherwise the median over the ensemble.  Near 2 for regular
+        motions, > 3 for chaotic ones; 0 for a motion that did not return.
     k : float
         K of the 0–1 test, the largest of every crossing, every second, fourth and so on; NaN if there are too few.
     divergence, divergence_error : float
         Mean of div ẏ along the motion and its error, in 1/T, by an ensemble of orbits; three errors are a 99.7 %
-        interval.
+        interval.  Both are 0 if `measure` is not empty or the motion did not return.
     measure : str
         Reason why the mean divergence is exactly 0 although the divergence is not; empty if none is known.
     """
@@ -157,7 +158,7 @@ class Regime(Result):
 
     @property
     def volume(self) -> int:
-        """−1 if phase volume around the motion shrinks by more than three errors, 1 if it grows, else 0."""
+        """−1 if phase volume around the motion shrinks by more than three errors, 1 if it grows by so much, else 0."""
         return 0 if self.measure else int(volume_sign(self.divergence, self.divergence_error))
 
     @property
@@ -263,7 +264,8 @@ def regime(
     Returns
     -------
     Regime
-        The kind of the motion, with the numbers that decided it.
+        The kind of the motion, with the numbers that decided it.  It may be UNDECIDED, SETTLING
+        (regular, but the transient is longer) or NO_RETURN.
 
     Raises
     ------
@@ -456,7 +458,8 @@ class Dynamics(Result):
     motion : Regime
         Kind of the motion forward in time, with the mean divergence.
     attractor, repeller : ndarray, shape (n, d) and (m, d)
-        Crossings of the first orbit, in order of time.
+        Crossings of the first orbit after the transient, followed forward and backward in time, in coordinates of the
+        section.
     comparisons : tuple of SetDistance
         Distance between the two sets, for each orbit of the ensemble.
     """
@@ -473,12 +476,12 @@ class Dynamics(Result):
 
     @property
     def distance(self) -> float:
-        """Distance between the sets, the mean over the settled orbits."""
+        """Mean distance between attractor and repeller over the settled orbits, in units of the coordinates."""
         return float(np.mean([one.distance for one in self.settled_comparisons]))
 
     @property
     def distance_error(self) -> float:
-        """The largest error, grain or difference from the mean."""
+        """Largest error, grain or difference from the mean distance among the settled orbits."""
         return max(max(one.error, one.grain, abs(one.distance - self.distance)) for one in self.settled_comparisons)
 
     @property

@@ -50,9 +50,9 @@ def sample_times(body: Body, state: Array, duration: float, weights: Array, sagi
     weights : ndarray, shape (d,)
         Pixels per unit of each variable.
     sagitta : float
-        Largest distance between curve and chord, in pixels.
+        Largest distance between curve and chord, positive, in pixels.
     most : int
-        Largest number of times.
+        Largest number of times, at least 2; if it is reached, the distance may be larger.
 
     Returns
     -------
@@ -98,7 +98,8 @@ def sampled_orbit(
 ) -> Orbit:
     """Return an orbit at the times that `sample_times` chooses.
 
-    A motion that ends earlier is followed up to its end and has a reason.
+    A motion that ends earlier is followed up to its end, or until its variables are too large for a picture; its status
+    is then INCOMPLETE, with a reason.
 
     Parameters
     ----------

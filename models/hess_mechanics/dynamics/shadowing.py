@@ -57,7 +57,7 @@ def errors_in_pixels(
 
 
 def has_diverged(away: Array) -> bool:
-    """Return True if a computed orbit has separated from the true orbit because of chaos.
+    """Return True if the errors of a computed orbit grow so much that it has left the true orbit, as in chaos.
 
     Parameters
     ----------
@@ -67,7 +67,8 @@ def has_diverged(away: Array) -> bool:
     Returns
     -------
     bool
-        True if the errors show this.
+        True if an error reaches 30 pixels, or the largest in the second half of the orbit exceeds both 30 times the
+        largest in the first half and 1e-6 pixels.
     """
     early, late = (float(part.max(initial=0.0)) for part in np.array_split(away, 2))
     return max(early, late) >= _LOST or late > max(_CHAOTIC * early, _NOTHING)

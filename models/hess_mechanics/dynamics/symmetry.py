@@ -54,9 +54,9 @@ class Mirror:
 
 
 def sign_symmetries(system: System, parameters: Sequence[float]) -> tuple[Mirror, ...]:
-    """Return all sign changes that map the motions of a system to motions, forward or backward in time.
+    """Return all sign changes of variables that map motions to motions, forward or backward in time.
 
-    Each is tested at a few states in general position, to round-off.
+    Each, except the identity, is tested at six states in general position, to round-off.
 
     Parameters
     ----------

@@ -464,7 +464,7 @@ class System:
         return divergence(self.field, len(self.variables), len(self.parameters))
 
     def divergence(self, states: Array, parameters: Sequence[float]) -> Array:
-        """Return the divergence of the field, the growth rate of phase volume.
+        """Return the divergence of the field, the relative growth rate of phase volume, in 1/T.
 
         Parameters
         ----------
@@ -765,11 +765,11 @@ class Problem:
     system : System
         The equations of motion.
     states : ndarray, shape (n, d)
-        Initial states.
+        Initial states, in scaled units.
     parameters : ndarray, shape (q,)
-        Parameters of the system.
+        Parameters of the system, in scaled units.
     nu : float
-        The unit of time is 1/ν.
+        Angular velocity ν > 0, in 1/T; the scaled unit of time is 1/ν.
     scale : ndarray, shape (d,)
         Factors that turn these states into the user's units.
     """

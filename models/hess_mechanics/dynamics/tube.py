@@ -194,7 +194,7 @@ class ProvedOrbit(Result):
 
     @property
     def valid_until(self) -> float:
-        """Last time up to which every state is correct; 0 if the first state is not."""
+        """Last time up to which every state is correct to `right_to`; 0 if the first state is not."""
         last = 0.0
         for t, sample in zip(self.tube.times.tolist(), self._errors, strict=True):
             if max(most for _, most in sample) > Fraction(self.right_to):
@@ -234,7 +234,7 @@ def tube(
     start : sequence of float, shape (d,)
         Initial state at time 0, taken as exact.
     times : array_like, shape (n,)
-        Times, monotonic from 0 forward or backward.
+        Times, monotonic from 0 forward or backward, in units T.
     digits : int, default 18
         Accuracy of the intervals, in decimal digits, 1 to 100.
     most_work : float, optional
@@ -592,8 +592,10 @@ def proved_orbit(
 
     Raises
     ------
+    MissingLibrary
+        If python-flint is not installed.
     InvalidParameter
-        If a number is not finite, or python-flint is not installed.
+        If a number is not finite or out of range.
     WorkLimit
         If the tube ends before its first time.
 

@@ -36,7 +36,7 @@ LONGEST = 1e6
 
 @dataclass(frozen=True)
 class Tangent:
-    """An orbit with k tangent vectors δ, δ̇ = J δ, at n times, in units of the problem.
+    """An orbit with k tangent vectors δ, δ̇ = J δ, at n times, in the scaled units of its `Problem`.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class Tangent:
     states : ndarray, shape (n, d)
         States of the orbit.
     vectors : ndarray, shape (n, d, k)
-        The tangent vectors; those of the start 1 give the fundamental matrix.
+        The tangent vectors, up to their removed lengths; from the unit matrix they give the fundamental matrix.
     log_growth : ndarray, shape (n, k)
         Logarithms of the lengths that were removed from the vectors.
     volume : ndarray, shape (n,)
@@ -82,14 +82,14 @@ def generic_direction(size: int) -> Array:
 
 
 def flow_frame(problem: Problem, frame: Array, slow: float) -> tuple[Array, float]:
-    """Return orthonormal columns, the first one along f(y) at the start of a motion, and |f|.
+    """Return orthonormal columns, the first one parallel to ±f(y) at the start of a motion, and the speed |f|.
 
     Parameters
     ----------
     problem : Problem
         The equations of motion and their units.
     frame : ndarray, shape (d, d)
-        Columns that give the others; all of them if |f| is at most `slow`.
+        Independent columns from which the others follow; all of them if |f| is at most `slow`.
     slow : float
         Smallest |f| of a moving orbit.
 
@@ -132,11 +132,11 @@ def tangent(
     problem : Problem
         The equations of motion and their units.
     start : ndarray, shape (d,)
-        State at time 0.
+        State at time 0, in scaled units.
     vectors : ndarray, shape (d, k)
         Vectors at time 0, k = 1 or d.
     times : ndarray, shape (n,)
-        Times, monotonic from 0.
+        Times, monotonic from 0 forward or backward, in units of 1/ν.
     level : Level
         Order and tolerance of the steps.
     limit : float

@@ -188,7 +188,7 @@ def h_min(f: float) -> float:
 
 
 def reach(h: float, n3: Array) -> Array:
-    """Return the largest |f| of motions that reach given heights; it is |f| at a turning point.
+    """Return the largest |f| of motions with the energy h that reach given n3; the motion with this |f| turns there.
 
     Parameters
     ----------
@@ -200,7 +200,7 @@ def reach(h: float, n3: Array) -> Array:
     Returns
     -------
     ndarray, shape (n,)
-        Largest |f|, in units b = 1; 0 where no motion reaches the height.
+        Largest |f| = √(2(h + n3)(1 − n3²)), in units b = 1; 0 where h + n3 ≤ 0.
     """
     return np.sqrt(np.maximum(0.0, 2.0 * (h + n3) * (1.0 - n3 * n3)))
 
@@ -218,7 +218,7 @@ def turning_points(h: float, f: float) -> TurningPoints:
     Returns
     -------
     TurningPoints
-        Roots of the gyroscopic function, period, and the section at the lower turning point.
+        Roots of the gyroscopic function, the period, and |w|² and 1 − n3² at the lower turning point.
 
     Raises
     ------
@@ -310,7 +310,7 @@ def curve(h_end: float, points: int = 200) -> Array:
     OutsideRegion
         If h_end ≤ −1.
     InvalidParameter
-        If h_end is not finite or too large.
+        If h_end is not finite or too large, or `points` is out of range.
 
     References
     ----------

@@ -51,7 +51,8 @@ _MAX_STEPS = 200_000
 def matrices(a: Array | float, h: Array, f: Array, accuracy: Accuracy) -> Array:
     """Return the matrices of the circle maps of tori, as rows (Re α, Im α, Im β, L, ζ, steps).
 
-    The first three numbers are times e^{−L}, and ζ is the lift of arg α, see `monodromy`.
+    α and β are the coefficients of the map z → (αz + β)/(β̄z + ᾱ), z = e^{iφ}, with |α|² − |β|² = 1.  The first three
+    numbers are multiplied by e^{−L}; ζ is the lift of arg α, in radians, and `steps` the number of Taylor steps.
 
     Parameters
     ----------
@@ -82,10 +83,10 @@ def matrices(a: Array | float, h: Array, f: Array, accuracy: Accuracy) -> Array:
 
 
 def discriminants(rows: Array) -> Array:
-    """Return ((Re α)² − |det|) e^{−2L}, which is positive where the map locks.
+    """Return ((Re α)² − 1) e^{−2L} of circle maps: positive where the map locks, 0 where it is parabolic.
 
-    It equals (Im β)² − (Im α)².  The first form is used where Im α and Im β are large and nearly equal, because their
-    difference loses digits there.
+    It equals ((Im β)² − (Im α)²) e^{−2L}.  The first form is used where Im α and Im β are large and nearly equal, because
+    their difference loses digits there.
 
     Parameters
     ----------
@@ -115,7 +116,8 @@ def rotation_numbers_of(rows: Array) -> Array:
     Returns
     -------
     ndarray, shape (n,)
-        Rotation numbers ρ in turns per return: an integer where the map locks, otherwise k + arccos(±Re α)/π.
+        Rotation numbers ρ in turns per return: an integer where the map locks or is parabolic, otherwise
+        k + arccos((−1)^k Re α)/π, k = ⌊ζ/π⌋.
     """
     re, _, _, _, zeta, _ = rows.T
     discriminant = discriminants(rows)
@@ -138,7 +140,8 @@ class FixedPoint:
     phi : float
         The angle φ of the fixed point, in radians, −π to π.
     log_multiplier : float
-        Natural logarithm of the multiplier, which itself may exceed the range of doubles; negative for a stable cycle.
+        Natural logarithm of the multiplier, which itself may exceed the range of doubles: negative for a stable cycle,
+        positive for an unstable one, 0 for that of a parabolic map.
     """
 
     phi: float
@@ -146,7 +149,7 @@ class FixedPoint:
 
     @property
     def stable(self) -> bool:
-        """True if the limit cycle attracts."""
+        """True if the limit cycle attracts; False if it repels or the map is parabolic."""
         return self.log_multiplier < 0.0
 
     @property
@@ -174,7 +177,8 @@ class CircleMap(Result):
     log_scale : float
         Natural logarithm of the common factor of `matrix`, ≥ 0.
     kind : str
-        "elliptic" (no limit cycle; conjugate to a rotation), "parabolic" or "hyperbolic" (two limit cycles).
+        "elliptic" (no limit cycle; conjugate to a rotation), "parabolic" (|2 Re α| = 2 to within the error) or
+        "hyperbolic" (two limit cycles).
     trace : float
         |2 Re α|, ≥ 0; ∞ beyond the range of doubles.
     log_trace : float
@@ -210,7 +214,7 @@ class CircleMap(Result):
     cost: Cost
 
     def theta(self, phi: Array | Sequence[float]) -> Array:
-        """Return Θ(φ).
+        """Return the angles Θ(φ) after one return.
 
         Parameters
         ----------
@@ -239,7 +243,7 @@ class CircleMap(Result):
         phi : float
             First angle in radians.
         count : int
-            Number of iterations.
+            Number of iterations, ≥ 0.
 
         Returns
         -------
@@ -285,7 +289,7 @@ class CircleMap(Result):
 
     @property
     def alpha_beta(self) -> tuple[complex, complex]:
-        """The coefficients α and β of the map, with a factor of at most e^700 to stay within the range of doubles."""
+        """The coefficients α and β; both times e^{700 − L} if L = `log_scale` > 700, to remain doubles."""
         re, im, beta = (value * math.exp(min(self.log_scale, 700.0)) for value in self.matrix)
         return complex(re, im), complex(0.0, beta)
 
@@ -293,8 +297,8 @@ class CircleMap(Result):
     def graph(self) -> tuple[Array, Array]:
         """Angles φ (n,) from −π to π and values Θ (n,), continued without jumps, dense on steep parts of the curve.
 
-        The points are even values of φ and the preimages of even values of Θ.  The reversor gives the inverse,
-        Θ⁻¹(ψ) = −Θ(−ψ).
+        The points are evenly spaced values of φ and the preimages of evenly spaced values of Θ.  The reversor gives the
+        inverse, Θ⁻¹(ψ) = −Θ(−ψ).
         """
         phi = np.unique(np.concatenate([_EVEN, -self.theta(-_EVEN)]))
         return as_read_only(phi), as_read_only(np.unwrap(self.theta(phi)))

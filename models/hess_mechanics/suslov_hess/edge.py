@@ -77,7 +77,7 @@ def prove_edge(a: Fraction, h: Fraction, f: Fraction) -> EdgeProof:
     a : Fraction
         Inertia parameter.
     h : Fraction
-        Energy h > −1, in units b = 1; (h, f) lies on the edge.
+        Energy h > −1, in units b = 1; (h, f) must lie on the edge, which is not checked.
     f : Fraction
         Area integral, nonzero, in units b = 1.
 

@@ -71,7 +71,9 @@ def embed(reduced: Array, h: float) -> Array:
 
 
 def cross_section(h: float, turning_points: TurningPoints | None, count: int) -> CrossSection:
-    """Return the cross-section of a torus, evenly in θ, n3 = ½(n1 + n2) − ½(n2 − n1) cos θ.
+    """Return the cross-section of a torus, at angles θ evenly spaced from 0 to 2π.
+
+    n3 = ½(ν1 + ν2) − ½(ν2 − ν1) cos θ between the turning points ν1 < ν2 of n3.
 
     Parameters
     ----------
@@ -137,12 +139,12 @@ def density_along(theta: CircleMap, count: int, accuracy: Accuracy) -> Complex:
     Returns
     -------
     ndarray of complex, shape (count,)
-        Points ζ_s of the unit disk.
+        Points ζ_s of the unit disk, which determine the density p(φ; ζ_s).
 
     Raises
     ------
     InvalidParameter
-        As `zeta_at`.
+        As `zeta_at`, or if `count` is below 3.
     WorkLimit
         As `zeta_at`.
     """

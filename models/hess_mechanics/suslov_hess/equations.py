@@ -70,22 +70,22 @@ class HessBody:
 
     @property
     def a(self) -> float:
-        """The inertia parameter a = I23/I22."""
+        """The inertia parameter a = I23/I22, dimensionless, of either sign."""
         return self.I23 / self.I22
 
     @property
     def b(self) -> float:
-        """The strength of the field, b = −b3/√(I22² + I23²)."""
+        """The strength of the field, b = −b3/√(I22² + I23²), of either sign or 0, in 1/T²."""
         return -self.b3 / math.hypot(self.I22, self.I23)
 
     @property
     def I11(self) -> float:
-        """The moment of inertia I11 = (I22² + I23²)/I22 (`bizi1`)."""
+        """The moment of inertia I11 = (I22² + I23²)/I22 (`bizi1`), in units I."""
         return self.I22 + self.I23 * self.a
 
     @property
     def b2(self) -> float:
-        """The second component of **b**, b2 = −I23 b3/I22 (`bizi2`)."""
+        """The second component of **b**, b2 = −I23 b3/I22 (`bizi2`), in units I/T²."""
         return -self.a * self.b3
 
     @property
@@ -102,12 +102,12 @@ class HessBody:
 
     @property
     def middle_I33(self) -> float | None:
-        """The middle of the interval of I33 of a rigid body, or None.  The equations do not contain I33."""
+        """The middle of the interval of I33 of a rigid body, in units I; None if |a| ≥ 1, where there is none."""
         return None if self.check.I33 is None else 0.5 * sum(self.check.I33)
 
     @property
     def n3(self) -> Array:
-        """The direction of n3 in the axes of the body, in units b = 1; shape (3,)."""
+        """The direction of n3 in the axes of the body, reversed if b < 0 as in units b = 1; shape (3,)."""
         return np.asarray(math.copysign(1.0, self.b) * self.turn[2], float)
 
     def tensor(self, I33: float) -> Array:

@@ -51,9 +51,9 @@ class InvariantMeasure:
     Attributes
     ----------
     zeta : float
-        The fixed point ζ, real, −1 < ζ < 1.
+        The fixed point ζ of the circle map inside the unit disk, real; it may round to ±1.
     gap : float
-        1 − |ζ|, positive, accurate also if ζ rounds to ±1.
+        1 − |ζ|, at least 1e-150, accurate also if ζ rounds to ±1.
     """
 
     zeta: float
@@ -93,7 +93,7 @@ def invariant_measure(theta: CircleMap) -> InvariantMeasure:
     Raises
     ------
     InvalidParameter
-        If the map has limit cycles.
+        If the map is not elliptic.
     """
     if theta.kind != "elliptic":
         raise InvalidParameter(
@@ -125,7 +125,7 @@ def zeta_at(theta: CircleMap, times: Sequence[float] | Array, accuracy: Accuracy
     theta : CircleMap
         The circle map of the torus.
     times : array_like, shape (m,)
-        Times s ≥ 0, in units b = 1.
+        Times s ≥ 0 in increasing order, in units b = 1.
     accuracy : str or Level
         Accuracy level.
 
@@ -137,7 +137,7 @@ def zeta_at(theta: CircleMap, times: Sequence[float] | Array, accuracy: Accuracy
     Raises
     ------
     InvalidParameter
-        If the map has limit cycles, f = 0, or the density is too narrow to draw.
+        If the map is not elliptic, f = 0, or the density is too narrow to draw.
     WorkLimit
         If an orbit needs too many steps.
     """
@@ -183,7 +183,8 @@ def density_on_torus(theta: CircleMap, accuracy: Accuracy, cells: tuple[int, int
     accuracy : str or Level
         Accuracy level.
     cells : (int, int), default CELLS
-        Number of cells (m, n) along σ = 2πs/T and along φ; m is rounded to an even number.
+        Number of cells (m, n) along σ = 2πs/T, with T the period of n3, and along φ; m is rounded down to an even
+        number, at least 2.
 
     Returns
     -------

@@ -60,7 +60,7 @@ def _rising_roots(function: Callable[[Array], Array], low: Array, high: Array) -
 
 
 def tongue_boundary(a: float, accuracy: Accuracy, points: int = 48) -> Array:
-    """Return the boundary |t| = 2 of the Arnold tongue of ρ = 0, for f ≥ 0.
+    """Return the boundary |t| = 2 of the Arnold tongue of ρ = 0, for f ≥ 0; t is the trace of the circle map.
 
     Parameters
     ----------
@@ -75,12 +75,14 @@ def tongue_boundary(a: float, accuracy: Accuracy, points: int = 48) -> Array:
     -------
     ndarray of float, shape (points, 2)
         Points (h, f) from the bifurcation curve to (1, 0), in units b = 1, read-only.  The map locks at larger h.
-        Shape (0, 2) if a = 0, where no map locks.
+        Shape (0, 2) if a = 0, where no map locks, or |a| < 5e-7, where the boundary extends beyond h = 1e6.
 
     Raises
     ------
     InvalidParameter
-        If a is not finite or |a| > 1e5.
+        If a is not finite, |a| > 1e5, or `points` is out of range.
+    WorkLimit
+        If a torus needs too many steps.
 
     Examples
     --------
@@ -111,7 +113,7 @@ def tongue_boundary(a: float, accuracy: Accuracy, points: int = 48) -> Array:
 
 
 def critical_a_of_tori(h: Array, f: Array, accuracy: Accuracy, high: float) -> Array:
-    """Return `critical_a` of possible tori.
+    """Return the a at which the limit cycles of each torus appear, as `critical_a`.
 
     Parameters
     ----------
@@ -127,7 +129,7 @@ def critical_a_of_tori(h: Array, f: Array, accuracy: Accuracy, high: float) -> A
     Returns
     -------
     ndarray, shape (n,)
-        Values of a; NaN where there is none below `high`.
+        Values of a > 0; NaN where the map locks at a = 1e-9 or does not lock at a = `high`.
 
     Raises
     ------
@@ -147,7 +149,7 @@ def critical_a_of_tori(h: Array, f: Array, accuracy: Accuracy, high: float) -> A
 
 
 def critical_a(h: float, f: float, accuracy: Accuracy, high: float = 10.0) -> float:
-    """Return the a at which the limit cycles of the torus (h, f) appear, |t| = 2.
+    """Return the a at which the limit cycles of the torus (h, f) appear, where the trace of the circle map is ±2.
 
     Parameters
     ----------
@@ -172,7 +174,9 @@ def critical_a(h: float, f: float, accuracy: Accuracy, high: float = 10.0) -> fl
     Separatrix
         If h = 1 and f = 0.
     InvalidParameter
-        If there is no such a in (0, high).
+        If the map does not lock at a = high, or `high` is too large.
+    WorkLimit
+        If the torus needs too many steps.
 
     Examples
     --------
@@ -197,7 +201,7 @@ CELLS = (100, 75)
 
 
 def affordable_cells(a: float, cells: tuple[int, int]) -> tuple[int, int]:
-    """Return fewer cells if a large |a| makes each cell expensive, but at least 8 × 8.
+    """Return the number of cells, reduced for |a| > 10, where each cell is expensive, but at least 8 × 8.
 
     Parameters
     ----------
@@ -230,7 +234,7 @@ def rotation_number_window(
     a : float
         Inertia parameter a, |a| ≤ 1e6.
     h : (float, float)
-        Range of h, in units b = 1.
+        Range of h, in units b = 1; cells with h ≤ −1 have the value at h = −1 + 1e-6.
     f : (float, float)
         Range of f, in units b = 1.
     accuracy : str or Level

@@ -88,11 +88,11 @@ class ProofStep:
     radius : Fraction
         Radius r of the disc |s − start| ≤ r, positive.
     bound : Fraction
-        Upper bound K on the coefficients on the disc.
+        Upper bound K on the coefficients of the linear system on the disc, positive.
     terms : int
-        Number N of terms.
+        Number N of terms of the Taylor series.
     matrix : tuple of Enclosure
-        Enclosures of A, B, C, D of the step.
+        Enclosures of the elements A, B, C, D of the matrix of the step, by rows.
     """
 
     start: Fraction
@@ -104,7 +104,7 @@ class ProofStep:
 
 @dataclass(frozen=True)
 class Proof(ShortRepr):
-    """Proved statement about the torus (a, h, f), for rational a, h, f in units b = 1; the result of `prove`.
+    """Result of `prove` for a torus (a, h, f), rationals in units b = 1: a proved statement, or undecided.
 
     Attributes
     ----------
@@ -115,23 +115,23 @@ class Proof(ShortRepr):
     f : Fraction
         Area integral.
     statement : str
-        `TWO_CYCLES` (|t| > 2), `NO_CYCLE` (|t| < 2) or `UNDECIDED`.
+        `TWO_CYCLES` (|t| > 2), `NO_CYCLE` (|t| < 2) or `UNDECIDED`; t is the trace of the circle map.
     trace : Enclosure
         Enclosure of |t|.
     rotation_number : Enclosure or None
         Rotation number in turns per return; None if undecided.
     fixed_points : tuple of Enclosure
-        Angles φ of the stable and of the unstable limit cycle in radians; empty without limit cycles.
+        Angles φ of the stable and of the unstable limit cycle in radians; empty without limit cycles or if undecided.
     multipliers : tuple of Enclosure
-        Multipliers of the stable and of the unstable limit cycle; empty without limit cycles.
+        Multipliers of the stable and of the unstable limit cycle; empty without limit cycles or if undecided.
     roots : tuple of Enclosure or None
         n0 < n1 < n2; None for f = 0, h < 1, where the map is a limit in closed form.
     half_turn : tuple of Enclosure or None
-        A, B, C, D of the half map.
+        Elements A, B, C, D of the matrix of the half map, by rows; None where `roots` is None.
     steps : tuple of ProofStep
-        The Taylor steps.
+        The Taylor steps; empty where `roots` is None.
     bits : int
-        Precision in bits, 64 to 512.
+        Precision in bits, at least 64.
     seconds : float
         Wall time in seconds.
 
@@ -175,7 +175,7 @@ def prove(
     most_work: float = MAX_WORK,
     digits: int = 6,
 ) -> Proof | EdgeProof:
-    """Prove that the torus (a, h, f) has exactly two limit cycles, or none.
+    """Prove that the torus (a, h, f) has exactly two limit cycles, or none; the result may be undecided.
 
     On the edge of the region, where there is no torus, prove how its circle of states moves.
 
@@ -197,7 +197,8 @@ def prove(
     Returns
     -------
     Proof or EdgeProof
-        An `EdgeProof` exactly if 2(h + n)(1 − n²) − f² has a double root.
+        A `Proof` with the statement `TWO_CYCLES`, `NO_CYCLE` or, where the limits do not suffice, `UNDECIDED`.  An
+        `EdgeProof` exactly if 2(h + n)(1 − n²) − f² has a double root.
 
     Raises
     ------
@@ -210,7 +211,7 @@ def prove(
     Separatrix
         If h = 1 and f = 0.
     WorkLimit
-        If `most_work` is reached at the first precision.
+        If `most_work` is reached at the first precision, or (h, f) is too close to (1, 0).
 
     Notes
     -----

@@ -117,7 +117,7 @@ class Torus:
         Returns
         -------
         (float, float)
-            Smallest and largest value; ±∞ where there is no limit.
+            Lower and upper bound; ±∞ where there is no limit, (0, 0) for f if h ≤ −1.
         """
         if name == "h":
             return h_min(self.f), math.inf
@@ -146,7 +146,7 @@ class ParameterLine:
 
     @property
     def ends(self) -> tuple[float, float]:
-        """The two ends of the interval."""
+        """The two ends of the line, (low, high)."""
         return self.low, self.high
 
     def value_of(self, torus: Torus) -> float:
@@ -196,7 +196,7 @@ class ParameterLine:
 
 
 def possible_part(line: ParameterLine) -> ParameterLine:
-    """Return the part of a line where motion is possible, with a small margin at each end.
+    """Return the part of a line where motion is possible, widened at each end by 3 % but not beyond the line.
 
     Parameters
     ----------
@@ -206,7 +206,7 @@ def possible_part(line: ParameterLine) -> ParameterLine:
     Returns
     -------
     ParameterLine
-        The shorter line; the whole line if no motion is possible on it.
+        The shorter line; the whole line if no motion is possible on it.  A line along h never goes below −1 + 1e-9.
     """
     first, last = line.torus.range_of(line.name)
     low, high = max(line.low, first), min(line.high, last)
@@ -219,18 +219,18 @@ def possible_part(line: ParameterLine) -> ParameterLine:
 
 @dataclass(frozen=True)
 class TorusValues(Result):
-    """Values at n tori; NaN (False for `locked`) if no motion is possible.
+    """Values at n tori; NaN (False for `locked`) where there is no torus.
 
     Attributes
     ----------
     rho : ndarray of float, shape (n,)
         Rotation number in turns per return.
     trace : ndarray of float, shape (n,)
-        |t|; ∞ beyond the range of doubles.
+        |t| = |2 Re α|; ∞ beyond the range of doubles.
     locked : ndarray of bool, shape (n,)
         True if the map locks.
     possible : ndarray of bool, shape (n,)
-        True if motion is possible.
+        True if there is a torus; False outside the region and within 1e-9 of the separatrix (1, 0).
     """
 
     rho: Array
@@ -259,7 +259,7 @@ class PeriodicTorus:
     torus : Torus
         Its parameters.
     defect : float
-        Largest |Θ^q(φ) − φ|, in radians; of the size of round-off.
+        Largest |Θ^q(φ) − φ|, in radians; of the size of round-off if every orbit closes, large if the map locks.
     """
 
     torus: Torus
@@ -287,14 +287,14 @@ def values_at(a: Array | float, h: Array | float, f: Array | float, accuracy: Ac
     Returns
     -------
     TorusValues
-        The values, NaN where no motion is possible.
+        The values, NaN where there is no torus.
 
     Raises
     ------
     InvalidParameter
-        If a value is not finite, or |a| or |h| is too large.
+        If a value is not finite, |a| or |h| is too large, or the arrays do not broadcast.
     WorkLimit
-        If there are more than a million tori, or one needs too many steps.
+        If there are more than a million tori, the arrays have two or more axes, or a torus needs too many steps.
     """
     level = as_level(accuracy)
     a, h, f = _together(a, h, f)
@@ -349,7 +349,9 @@ def rotation_errors(a: Array | float, h: Array | float, f: Array | float, accura
 
 
 def tongue_curve(plane: str, torus: Torus, window: Sequence[float], accuracy: Accuracy, points: int = 48) -> Array:
-    """Return the boundary |t| = 2 of the Arnold tongue, in a plane of parameters through a torus.
+    """Return the boundary |t| = 2 of the Arnold tongue ρ = 0, in a plane of parameters through a torus.
+
+    t = 2 Re α is the trace of the circle map.
 
     Parameters
     ----------
@@ -358,7 +360,7 @@ def tongue_curve(plane: str, torus: Torus, window: Sequence[float], accuracy: Ac
     torus : Torus
         The torus.
     window : sequence of float
-        Range x0, x1 of the horizontal axis; further numbers are ignored.
+        Range x0, x1 of the horizontal axis; further numbers are ignored, and all of them in the plane "h, f".
     accuracy : str or Level
         Accuracy level.
     points : int, default 48
@@ -367,7 +369,8 @@ def tongue_curve(plane: str, torus: Torus, window: Sequence[float], accuracy: Ac
     Returns
     -------
     ndarray, shape (n, 2)
-        Points of the boundary: in (h, f) that of `tongue_boundary`, f ≥ 0, otherwise a over h or f, where it exists.
+        Points of the boundary: in (h, f) those of `tongue_boundary`, f ≥ 0, otherwise a over h or f, where there is one
+        with 0 < a < 20.
 
     Raises
     ------
@@ -400,7 +403,9 @@ def _abscissas(plane: str, torus: Torus, x0: float, x1: float, points: int) -> A
 def perturbed_rotation(
     a: Array | float, h: Array | float, f: Array | float, epsilon: float, accuracy: Accuracy, count: int = TURNS
 ) -> Array:
-    """Return the rotation numbers of the perturbed maps Θ_ε of tori, by weighted averages.
+    """Return the rotation numbers of the perturbed maps Θ_ε(φ) = Θ(φ + ε sin 3φ) of tori, by weighted averages.
+
+    Motion must be possible on all tori, and (h, f) must not be the separatrix (1, 0); this is not checked.
 
     Parameters
     ----------
@@ -463,7 +468,7 @@ def parameter_at(rho: float, line: ParameterLine, accuracy: Accuracy) -> float |
     Returns
     -------
     float or None
-        The value; None if 121 points of the line show none.
+        The value; None if ρ does not pass through it between two neighbours of 121 equidistant tori of the line.
 
     Raises
     ------
@@ -507,12 +512,12 @@ def return_error(torus: Torus, q: int, accuracy: Accuracy) -> float:
     Returns
     -------
     float
-        The error, in radians.
+        The error, in radians, 0 to π.
 
     Raises
     ------
-    OutsideRegion
-        If no motion has these parameters.
+    OutsideRegion, Separatrix, InvalidParameter, WorkLimit
+        As `circle_map`.
     """
     theta = circle_map(torus.a, torus.h, torus.f, accuracy)
     phi = np.linspace(-math.pi, math.pi, 64, endpoint=False)
@@ -725,7 +730,7 @@ def plateaus(rho: Array, possible: Mask) -> list[Fraction]:
     Returns
     -------
     list of Fraction
-        Values that two neighbours share to 1e-6, with denominators up to 12, in order of these.
+        Values that two neighbours share to 1e-6, with denominators up to 12, sorted by denominator.
     """
     level = np.flatnonzero(possible[1:] & possible[:-1] & (np.abs(np.diff(rho)) < 1e-6))
     steps = [(Fraction(float(rho[i])).limit_denominator(12), float(rho[i])) for i in level]

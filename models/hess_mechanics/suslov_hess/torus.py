@@ -40,13 +40,13 @@ class Track:
     Attributes
     ----------
     times : ndarray of float, shape (n,)
-        Times.
+        Times, in the unit T of the body.
     omega : ndarray of float, shape (n, 2)
         Angular velocity (ω1, ω2), in rad/T.
     gamma : ndarray of float, shape (n, 3)
         Vertical γ.
     phi : ndarray of float, shape (n,)
-        Angle of (w2, w1) in (−π, π], in radians.
+        Angle φ of w = |w|(sin φ, cos φ) in (−π, π], in radians.
     n3 : ndarray of float, shape (n,)
         Third component of n, −1 to 1.
     orbit : Orbit
@@ -88,16 +88,16 @@ def start_of_track(body: HessBody, h: float, f: float, phi0: float, duration: fl
     f : float
         Area integral, |f| ≤ f_max(h), in units b = 1.
     phi0 : float
-        Phase at n3 = n3^(1), in radians.
+        Angle φ of w = |w|(sin φ, cos φ) at the start, in radians.
     duration : float
-        Time, in the units of the body.
+        Time, in the units of the body; negative: backward.
 
     Returns
     -------
     state : ndarray, shape (5,)
         State (w1, w2, n1, n2, n3).
     duration : float
-        Time in units b = 1, at most `MAX_RETURNS` periods of n3.
+        Time in units b = 1, at most `MAX_RETURNS` periods of n3; at most 20 on the separatrix.
 
     Raises
     ------
@@ -133,6 +133,11 @@ def pixels_per_unit(body: HessBody, half_width: float) -> Array:
     -------
     ndarray, shape (5,)
         Pixels per unit of w1, w2, n1, n2, n3.
+
+    Raises
+    ------
+    NoField
+        If b = 0.
     """
     radius = 0.5 * PIXELS
     w = radius * body.frequency_unit / half_width
@@ -153,9 +158,9 @@ def track(
     f : float
         Area integral, |f| ≤ f_max(h), in units b = 1.
     phi0 : float
-        Phase at n3 = n3^(1), in radians.
+        Angle φ of w = |w|(sin φ, cos φ) at the start, in radians.
     duration : float
-        Time, in the units of the body.
+        Time, nonzero, in the units of the body; negative: backward.
     accuracy : str or Level
         Accuracy level.
     half_width : float
@@ -174,6 +179,8 @@ def track(
         If b = 0.
     InvalidParameter
         If a number is not finite.
+    WorkLimit
+        If the orbit needs too many steps.
     """
     start, length = start_of_track(body, h, f, phi0, duration)
     times = _times(body, start, length, half_width)
@@ -216,8 +223,12 @@ def cycles(
     ------
     OutsideRegion
         If no motion has this h and f.
+    Separatrix
+        If h = 1 and f = 0.
     NoField
         If b = 0.
+    WorkLimit
+        If the orbit needs too many steps.
     """
     turning = turning_points(h, f)
     start = turning.state_at_lower_turn(stable.phi)

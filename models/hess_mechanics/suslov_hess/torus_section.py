@@ -79,7 +79,7 @@ class TorusSection(PoincareSection):
 
     @property
     def slowness(self) -> float:
-        """The time between two crossings in units of the fastest motion, from the period of n3."""
+        """A tenth of the period of n3 times the bound √(2(h + 3)) on the angular velocity, at least 1."""
         return max(1.0, 0.1 * self.turning_points.period * math.sqrt(2.0 * (self.h + 3.0)))
 
     @property
@@ -89,7 +89,7 @@ class TorusSection(PoincareSection):
 
     @cached_property
     def measure(self) -> str:
-        """The measure of `invariant_measure`, which exists where no cycle does."""
+        """Reason, in words, why the torus has a smooth invariant measure; empty if the circle map is not elliptic."""
         # The map degenerates for f = 0, where the motion reaches h + n3 = 0.
         with suppress(ModelError):
             if circle_map(self.a, self.h, self.f, PRECISE).kind == "elliptic":
@@ -154,7 +154,7 @@ class TorusSection(PoincareSection):
         Returns
         -------
         ndarray, shape (n, 1)
-            Angles φ, in radians.
+            Angles φ, −π to π, in radians.
         """
         return np.arctan2(states[:, :1], states[:, 1:2])
 
