@@ -85,8 +85,8 @@ def matrices(a: Array | float, h: Array, f: Array, accuracy: Accuracy) -> Array:
 def discriminants(rows: Array) -> Array:
     """Return ((Re α)² − 1) e^{−2L} of circle maps: positive where the map locks, 0 where it is parabolic.
 
-    It equals ((Im β)² − (Im α)²) e^{−2L}.  The first form is used where Im α and Im β are large and nearly equal, because
-    their difference loses digits there.
+    It equals ((Im β)² − (Im α)²) e^{−2L}.  The first form is used where Im α and Im β are large and nearly equal,
+    because their difference loses digits there.
 
     Parameters
     ----------
