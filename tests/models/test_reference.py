@@ -9,7 +9,7 @@ from support.mechanics import REFERENCE
 
 @mark.parametrize(("name", "bound"), [("draft", 1e-3), ("standard", 1e-6), ("precise", 1e-9), ("reference", 1e-9)])
 @mark.parametrize(
-    "row", REFERENCE["tongue_boundary"] + REFERENCE["a_critical"], ids=lambda row: f"h={row['h']},f={row['f']}"
+    "row", REFERENCE["lock_boundary"] + REFERENCE["a_critical"], ids=lambda row: f"h={row['h']},f={row['f']}"
 )
 def test_the_critical_a_of_the_lock_boundary_agrees_with_the_reference(row, name, bound):
     assert critical_a(float(row["h"]), float(row["f"]), name) == approx(float(row["a"]), abs=bound)

@@ -38,7 +38,7 @@ def test_the_shade_of_the_torus_is_the_density_of_its_caption():
     # A body of its own with this a, of which nothing is known yet.
     view = View(SCENE, {"I22": 2.0, "I23": 2.0 * I23, "h": h, "f": f}, seen={"torus"})
     (shade,) = view.data["torus-density"]["image"]
-    least, most = view.numbers("torus", "The flow preserves this density. # to # times the uniform one")
+    least, most = view.numbers("torus", "The flow preserves this density. # to # times the uniform density")
     density = np.asarray(shade, float) * most
     assert (density.min(), density.mean()) == approx((least, 1.0), rel=6e-3)
     exact = density_on_torus(circle_map(I23, h, f, REFERENCE), REFERENCE, density.shape[::-1])

@@ -57,7 +57,7 @@ WRONG = [
     ({"computation": "speed"}, "There is no computation 'speed'"),
     ({"numbers": ("speed",)}, "circle-map has no number 'speed'; choose from rotation-number"),
     ({"h": 1.0}, "h is both swept and fixed"),
-    ({"over": {}}, "a mapping of one to 3 parameters"),
+    ({"over": {}}, "map one to 3 parameters"),
     ({"over": {"h": [1.0, 1.0]}}, "one or more different numbers"),
     ({"workers": "many"}, "workers = 'many'"),
     ({"over": {"h": (0.0, 1.0, 10**6), "f": (0.0, 1.0, 10**6)}}, "1000000000000 cells, but at most 10000000"),

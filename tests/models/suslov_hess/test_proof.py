@@ -45,7 +45,7 @@ def kept_maps(most):
 
 @mark.parametrize(
     ("moved", "row"),
-    [(name, row) for name, rows in (("f", "tongue_boundary"), ("a", "a_critical")) for row in REFERENCE[rows]],
+    [(name, row) for name, rows in (("f", "lock_boundary"), ("a", "a_critical")) for row in REFERENCE[rows]],
     ids=str,
 )
 def test_on_both_sides_of_the_held_boundary_the_statements_differ(moved, row):
