@@ -26,7 +26,7 @@ def test_parameters_without_effect_are_named():
     scene = scenes()["own-body"]
 
     def idle(**changes):
-        return dict(scene.idle({**scene.defaults(), **changes}))
+        return dict(scene.idle_values({**scene.defaults(), **changes}))
 
     assert idle() == {"frequency": scene.defaults()["frequency"]}
     assert idle(d2=0.1) == {}
