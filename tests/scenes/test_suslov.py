@@ -173,7 +173,7 @@ def test_an_energy_that_does_not_reach_the_plane_is_raised_and_shown(plane, h):
 
 def test_elsewhere_the_conformal_time_is_not_drawn_and_that_is_said():
     view = View(SCENE, FEW, seen={"conformal"})
-    assert "Only for I₁₃ = I₂₃ = 0" in view.text["conformal"]
+    assert "Needs I₁₃ = I₂₃ = 0" in view.text["conformal"]
     assert "conformal-tau" not in view.data
     long = View(SCENE, {**values_of(SCENE, PRINCIPAL), **FEW, "span": 9e3}, seen={"conformal"})
     assert "choose a shorter time span" in long.text["conformal"]

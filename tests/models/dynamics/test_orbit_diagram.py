@@ -84,7 +84,7 @@ def test_what_keeps_volume_says_that_nothing_attracts_there():
 
 
 def test_what_is_too_much_is_refused():
-    with raises(InvalidParameter, match="1 to 2000 finite values"):
+    with raises(InvalidParameter, match="give 1 to 2000 finite ones"):
         diagram_over(henon, "a", [math.nan], (0.5, 0.1))
     with raises(WorkLimit, match="at most 20000"):
         diagram_over(henon, "a", [1.0], (0.5, 0.1), transient=20_000)

@@ -185,7 +185,7 @@ def test_what_has_no_exponents_is_refused(find):
         (SUSLOV.example_motion, 0.0, InvalidParameter, "must be finite and at least"),
         (SUSLOV.example_motion, 1e300, WorkLimit, "time|too long"),
         # A round-off of 1e-16 over that is beyond double range.
-        (SUSLOV.example_motion, -5e-324, InvalidParameter, "at least 1e-290: choose one like 100"),
+        (SUSLOV.example_motion, -5e-324, InvalidParameter, "at least 1e-290: choose one such as 100"),
         (EXTREME, 50.0, WorkLimit, r"exceeds the range of double precision.* less extreme parameters"),
     ):
         with raises(error, match=words):
