@@ -146,4 +146,4 @@ test_bodies_that_have_no_counterpart_are_refused = refused(
 def test_too_long_a_run_is_refused():
     start = tuple(GESS1.from_reduced(somewhere()))
     with raises(WorkLimit, match=r"choose a shorter (time span|one)"):
-        run_free(GESS1.heavy, start, 1e9, 3, "draft", constrained=True)
+        run_free(GESS1.heavy, start, 1e9, 3, "draft", held=True)

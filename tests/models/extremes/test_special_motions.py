@@ -50,7 +50,7 @@ def test_held_on_the_manifold_euler_poisson_is_suslovs_motion(bridge, h, share):
     exact = bridge.hess.in_units_of_b(bridge.hess.to_reduced(suslov.states))
 
     def error(name):
-        run = run_free(bridge.heavy, start, times[-1], times.size, name, constrained=True)
+        run = run_free(bridge.heavy, start, times[-1], times.size, name, held=True)
         # Off the manifold the two have no state in common.
         assert np.max(np.abs(run.offset)) < 1e-12
         return np.max(bridge.distance(run.states, exact)) / sqrt(2.0 * (h + 1.0))
