@@ -88,7 +88,10 @@ def test_a_frame_depends_on_its_time_alone(link, picture):
     assert (np.abs(start - end).max(axis=2) > 60).sum() > 100
 
 
-@pytest.mark.parametrize("link, picture, lasts", [("scene=kharlamova", "domain", True), (LINK, "body", False)])
+@pytest.mark.parametrize(
+    "link, picture, lasts",
+    [("scene=kharlamova", "domain", True), pytest.param(LINK, "body", False, marks=pytest.mark.thorough)],
+)
 def test_the_end_of_a_loop_meets_its_beginning(link, picture, lasts, tmp_path):
     shown, path = picture_data(link, picture), tmp_path / "loop.mp4"
     path.write_bytes(as_film(shown, FileRequest("mp4", seconds=1.0, loop=Loop(True, "https://example.org/"))))

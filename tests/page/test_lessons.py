@@ -255,8 +255,8 @@ def test_in_a_hall_each_step_is_a_slide_of_which_the_clicker_skips_nothing(explo
         explorer.change(explorer.tell, "lesson", lesson.name)
         for number, step in enumerate(lesson.steps, 1):
             expect(count).to_have_text(f"{number} / {len(lesson.steps)}", timeout=60_000)
-            if step.controls:
-                wait_ready(page)
+            # The controls come with the step, before its pictures are computed.
+            expect(page.locator(".step-controls > *")).to_have_count(len(step.controls), timeout=60_000)
             wait_frames(explorer, 2)
             seen = set()
             while count.text_content().startswith(f"{number} /"):
