@@ -34,7 +34,7 @@ def __dir__() -> list[str]:
 
 
 def __getattr__(name: str) -> Any:
-    """Return a name of the package; its functions check their arguments against their annotations."""
+    """Return a public object by name; functions check their arguments.  Raises `AttributeError` for other names."""
     if name == "__all__":
         return __dir__()
     try:

@@ -34,37 +34,37 @@ def cloud(
     angle: float | None = None,
     accuracy: Accuracy = "standard",
 ) -> Cloud:
-    """Return a cloud of phase points of the Chaplygin ball without a field, at time t.
+    """Return a cloud of phase points of the Chaplygin ball without a field, at times from 0 to `duration`.
 
     Parameters
     ----------
     body : BallBody
-        The ball.
+        The ball, with b = 0 and with I13 or I23 nonzero.
     h : float
-        Energy about which the points are spread at time 0, h > 0.
+        Energy about which the points are spread at time 0, or that of the centre of the patch; h > 0, in units I/T².
     duration : float
-        Time, in units T; negative: backward.
+        Last time, in units T; negative: backward.
     count : int, default 1000
         Number of points, 1 to 20 000.
     spread : float, default 0.1
-        Spread of the energies relative to h, or the radius of the patch if an `angle` is given; 0 to 1.
+        Half width of the range of energies relative to h; with an `angle`, radius of the patch, in units of |ω| at its
+        centre and, for γ, in radians.  0 < spread < 1.
     angle : float, optional
-        Start in a patch about the ω at this angle, in radians, with γ = e₃.  By default the points fill the energy
-        surface.
+        Angle of ω at the centre of a patch, in radians, with γ = e₃.  By default the points fill a shell of energies.
     accuracy : str or Level, default "standard"
         Accuracy level.
 
     Returns
     -------
     Cloud
-        The points at time t.
+        The points at evenly spaced times, 0 and `duration` included.
 
     Raises
     ------
     InvalidParameter
-        If a number is out of range.
+        If a number is out of range, the ball has a field, or I13 = I23 = 0.
     WorkLimit
-        If the motions need too many steps.
+        If the motions need too many steps or frames, or come too close to I13ω1 + I23ω2 = 0.
 
     Examples
     --------
@@ -106,14 +106,14 @@ def rotation_numbers(
     Returns
     -------
     TorusValues
-        Rotation number, trace and locking of each torus.
+        Rotation number, trace and locking of each torus; NaN and False where there is no torus.
 
     Raises
     ------
     InvalidParameter
-        If a value is not a finite number.
+        If a value is not finite, |a| or |h| is too large, or the arrays do not broadcast.
     WorkLimit
-        If there are too many tori.
+        If there are more than a million tori, an array has two or more axes, or a torus needs too many steps.
 
     Examples
     --------
@@ -149,18 +149,19 @@ def rotation_along_line(
     ends : ((float, float), (float, float))
         The two ends (l, L/G) of the line; l in radians.
     count : int, default 24
-        Number of orbits, spread evenly over the line, at most 1000.
+        Number of orbits, spread evenly over the line, 1 to 1000; points that no motion crosses are left out.
     crossings : int, default 300
         Number of crossings per orbit, 20 to 10 000.
     about_first : bool, default False
-        Count turns about the first end of the line.  Otherwise by the angle l.
+        Count turns about the first end of the line.  By default turns of the angle l are counted.
     accuracy : str or Level, default "standard"
         Accuracy level.
 
     Returns
     -------
     RotationProfile
-        The rotation number of each orbit, in turns per return.
+        Rotation numbers of the orbits on closed curves that wind round, in turns per return; librations and chaotic
+        intervals are listed separately.
 
     Raises
     ------

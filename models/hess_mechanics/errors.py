@@ -18,11 +18,14 @@ class WrongScaling(ModelError):
 
 
 class NotPositiveDefinite(ModelError):
-    """Moments of inertia with a kinetic energy that is not positive: I11 and I22 must be positive."""
+    """Moments of inertia for which the kinetic energy is not positive definite, such as I11 ≤ 0."""
 
 
 class OutsideRegion(ModelError):
-    """Values of (h, f) without a motion: h ≤ −1, or beyond the bifurcation curve (`Geq3`)."""
+    """Values of the integrals, or a point of a section, without a motion.
+
+    In the Suslov–Hess case: h ≤ −1, or (h, f) beyond the bifurcation curve (`Geq3`).
+    """
 
 
 class Separatrix(ModelError):
@@ -30,11 +33,11 @@ class Separatrix(ModelError):
 
 
 class NoField(ModelError):
-    """No field, so that h and f in units of b are undefined."""
+    """A body without the field or centre of mass that a definition needs, such as that of h and f in units of b."""
 
 
 class WorkLimit(ModelError):
-    """A request that needs more steps than allowed."""
+    """A request that needs more work than allowed, for example too many steps or points."""
 
 
 class MotionEnds(WorkLimit):
@@ -54,11 +57,11 @@ class MotionEnds(WorkLimit):
 
 
 class NoReturn(ModelError):
-    """A motion that does not return to its sheet of the section within the time limit."""
+    """A motion that does not return to the section within the time limit, or returns on another sheet."""
 
 
 class NotConverged(ModelError):
-    """An iteration, such as Newton's method, that does not converge from its start."""
+    """An iteration, such as Newton's method, that does not converge from its start, or a search without a result."""
 
 
 class MissingLibrary(ModelError):

@@ -5,7 +5,7 @@ quantities, such as h, has one constant for each.  A scene may choose another de
 of its own need a comment with the reason.
 
 The library param is not used here: its parameters belong to mutable classes, while these are hashable values, and the
-mechanics import no library of the page.
+mechanics import no user-interface library.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _LARGE = 1e6
 
 
 def plain(value: float, digits: int = 6) -> str:
-    """Return a number as text in ordinary notation, such as 1200 for 1.2e+03 and 1e6 for 1e+06.
+    """Return a number as text, without an exponent between 1 and 1e6: 1200 for 1.2e+03, but 1e6 for 1e+06.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ def plain(value: float, digits: int = 6) -> str:
 
 @dataclass(frozen=True)
 class Parameter:
-    """A parameter, for every place where it can be set.
+    """A numerical parameter: its name, range, default and meaning.
 
     Parameters
     ----------
@@ -74,7 +74,8 @@ class Parameter:
     unit : str, default "1"
         Unit; "1" for a number in the units of the problem.
     meaning : str, optional
-        Distinguishes parameters with the same label.  A scene takes over a value from another scene only if both agree.
+        Distinguishes parameters with the same label; empty to use the label.  A scene takes over a value from another
+        scene only if the meanings agree.
     is_integer : bool, default False
         True for integers.
     """
@@ -114,7 +115,7 @@ class Parameter:
         Raises
         ------
         InvalidParameter
-            If it is not finite, outside the bounds, or not an integer where one is required.
+            If it is not a number within the bounds, both included, or not an integer where one is required.
         """
         low, high = self.bounds
         if not (low <= value <= high and (not self.is_integer or value == round(value))):
@@ -462,7 +463,7 @@ H_QUARTIC = Parameter(
     (-0.9, 4.0),
     0.01,
     (-1e2, 1e3),
-    "Energy above −|b₃|. Above |b₃| the point cannot reach the middle.",
+    "Energy E, which must exceed −|b₃|. Above |b₃| the point cannot reach the middle.",
 )
 
 # ---- where a motion starts, and how long it is followed -------------------------------------------------------------

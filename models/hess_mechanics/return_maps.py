@@ -1,7 +1,7 @@
 """Return maps of Poincaré sections: their orbits, periodic orbits, manifolds and orbit diagrams.
 
-`return_map(body, …)` makes the return map of a section at fixed values of the integrals; the other functions take it as
-their first argument.  All results have `.to_pandas()`, `.to_xarray()` and `.plot()`.
+`return_map(body, …)` returns the return map of a section at fixed values of the integrals; the other functions take it
+as their first argument, and their results have `.to_pandas()`, `.to_xarray()` and `.plot()`.
 """
 
 from __future__ import annotations
@@ -66,10 +66,10 @@ class PlanePoints(Result):
     names : tuple of str
         Names of the two coordinates.
     orbits : tuple of ndarray, shape (n, 2)
-        Crossings of each orbit, in order of time.
+        Crossings of each orbit, in the order in which they occur; fewer than requested if it ends or stays away.
     facts : dict
-        Accuracy level, drift of each integral, number of steps, orbits that end early and why, and of each angle that
-        it stays within one turn.
+        Accuracy level, largest drift of each integral, number of steps, the reason for each orbit that ends early, and
+        for each angle the remark that its values lie within one turn.
     """
 
     names: tuple[str, str]
@@ -114,7 +114,9 @@ def return_map(
     - `HessBody`: a circle on the torus (`h`, `f`) in units b = 1, coordinate φ.
     - `QuarticBody`: the section of the plane motion at the body's own energy, coordinates (q, p).
     - Any other system, `System.at`: a variable passes a value, and one or two others are the coordinates.
-      The rest follows from `integrals`, of which `E`, `h` and `f` are short forms.
+      The other variables follow from `integrals`, of which `E`, `h` and `f` are short forms.
+
+    `plane`, `sheet` and the arguments for any other system have no effect on bodies to which they do not apply.
 
     Parameters
     ----------
@@ -123,8 +125,8 @@ def return_map(
     E : float, optional
         Energy of a `SuslovBody` or `BallBody`, in units I/T².
     h : float, optional
-        Energy of a `SuslovBody` or `BallBody` above the lowest, positive; energy integral of a `HeavyBody`, or of a
-        `HessBody` in units b = 1, h > −1.
+        Energy of a `SuslovBody` or `BallBody` above the lowest, instead of `E`, positive; energy integral of a
+        `HeavyBody`, in units I/T², or of a `HessBody` in units b = 1, h > −1.
     f : float, optional
         Area integral of a `HeavyBody`, in units I/T, or of a `HessBody` in units b = 1.
     plane : int, default 3
@@ -139,13 +141,14 @@ def return_map(
         Coordinates of the section of any other system, one or two of its variables.  By default those on which the
         rate of the surface's variable depends least.
     window : sequence of (float, float), optional
-        Range of each of these coordinates.
+        Range of each of these coordinates.  By default (−π, π) for an angle, otherwise a symmetric range that contains
+        the example of the system.
     sense : {1, -1}, default 1
-        Count crossings of any other system with increasing (1) or decreasing (−1) variable.
+        Direction in which the variable of `surface` passes its value: increasing (1) or decreasing (−1).
     backward : bool, default False
         Map backward in time, as `ReturnMap.inverse` does.
     longest : float, optional
-        Longest time to wait for a return, in units of the problem.  The default is enough for most motions.
+        Longest time to wait for a return, positive, in units T.  The default is enough for most motions.
     accuracy : str or Level, default "precise"
         Accuracy level.
 
@@ -158,6 +161,8 @@ def return_map(
     ------
     InvalidParameter
         If an integral is missing or does not apply to this kind of body, or if a value is out of range.
+    OutsideRegion
+        If no motion of a `SuslovBody` or `BallBody` at this energy reaches the section.
 
     Examples
     --------
@@ -185,7 +190,7 @@ def return_map(
     else:
         section = TorusSection(body.a, *_values_of(values, "h", "f"))
     if longest is not None and not longest > 0.0:
-        raise InvalidParameter(f"longest = {longest:g} is not a waiting time: choose a positive number.")
+        raise InvalidParameter(f"longest = {longest:g} is not a time to wait for a return: choose a positive number.")
     return ReturnMap(section, as_level(accuracy), backward, longest)
 
 
@@ -199,13 +204,15 @@ def section_orbits(
     Parameters
     ----------
     map_ : ReturnMap
-        Return map of a section with two coordinates; also sets the direction of time and the accuracy level.
+        Return map of a section with two coordinates; also sets the direction of time, the longest time to wait for a
+        return, and the accuracy level.
     starts : sequence of (float, float), optional
         Points of the section where the orbits start.
     orbits : int, default 20
-        Number of orbits, spread evenly over the section, if no `starts` are given.  At most 1000.
+        Number of orbits, spread evenly over the section, if no `starts` are given; 1 to 1000, and fewer where motions
+        cross only a tiny part of the section.
     crossings : int, default 200
-        Number of crossings per orbit.  At most 10 000.
+        Largest number of crossings per orbit, 1 to 10 000.
 
     Returns
     -------
@@ -215,7 +222,7 @@ def section_orbits(
     Raises
     ------
     InvalidParameter
-        If the section has only one coordinate, or a number is out of range.
+        If the section has only one coordinate, a start is not a point of it, or a number is out of range.
     OutsideRegion
         If no motion crosses the section at a start, or anywhere.
     WorkLimit
@@ -277,9 +284,9 @@ def periodic_orbit(map_: ReturnMap, start: Sequence[float], period: int | None =
     Raises
     ------
     InvalidParameter
-        If the point or the period is out of range.
+        If the point does not have finite coordinates, or the period is out of range.
     NotConverged
-        If Newton's method finds no orbit.
+        If Newton's method finds no orbit, or no orbit of this period.
 
     Examples
     --------
@@ -306,7 +313,8 @@ def continued_orbit(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: f
     parameter : str
         Name of the parameter, one of `map_.section.constants`.
     to : float
-        Value of the parameter towards which the branch starts and at which it ends, in the unit of the parameter.
+        Value of the parameter towards which the branch starts, in the unit of the parameter.  The branch ends where the
+        parameter leaves the range between its current value and this one.
     points : int, default 200
         Largest number of points of the branch, 2 to 2000.
 
@@ -318,9 +326,10 @@ def continued_orbit(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: f
     Raises
     ------
     InvalidParameter
-        If there is no such parameter, or a number is out of range.
+        If there is no such parameter, a number is out of range, or `to` is the current value.
     NotConverged
-        If the orbit is not a periodic orbit of this map.
+        If the branch cannot start, because the orbit is not a periodic orbit of this map, is at a bifurcation, or
+        belongs to a family.
     WorkLimit
         If an orbit needs too many steps.
 
@@ -366,29 +375,33 @@ def orbit_diagram(
     parameter : str
         Name of the parameter, one of `map_.section.constants`.
     values : array_like, shape (n,)
-        Values of the parameter, in the order in which they are visited; there and back they show hysteresis.
+        Values of the parameter, 1 to 2000, in the order in which they are visited; values that go up and down again
+        show hysteresis.
     start : sequence of float, shape (d,)
         Point of the section where the orbit starts.
     transient : int, default 200
-        Crossings discarded at each value, 0 to 20 000.
+        Largest number of crossings discarded at each value, 0 to 20 000; fewer if the orbit approaches a periodic one
+        sooner.
     crossings : int, default 64
         Crossings shown at each value, 1 to 20 000.
     follow : bool, default True
-        Start each value from the last point of the one before.  Otherwise each value starts from `start`.
+        Start each value from the last point of the one before, or from `start` if that fails.  Otherwise each value
+        starts from `start`.
 
     Returns
     -------
     Diagram
-        The points and the period at each value.
+        The points and the period at each value; no points at a value without a body or a return.
 
     Raises
     ------
     InvalidParameter
         If there is no such parameter, or a number is out of range.
     OutsideRegion
-        If no motion crosses the section at the point, for all values.
+        If no value has points, and no motion crosses the section at `start` for the first value.
     WorkLimit
-        If the diagram has too many points.
+        If the diagram has more than 1 000 000 points, `transient` + `crossings` exceeds 20 000, or an orbit needs too
+        many steps.
 
     Examples
     --------
@@ -432,14 +445,15 @@ def period_doublings(map_: ReturnMap, orbit: PeriodicOrbit, parameter: str, to: 
     Returns
     -------
     Cascade
-        The doublings that were found.
+        The doublings in order, none if there is no doubling; `end_reason` says why there are no more.
 
     Raises
     ------
     InvalidParameter
-        If there is no such parameter, or a number is out of range.
+        If there is no such parameter, a number is out of range, or `to` is the current value.
     NotConverged
-        If the orbit is not a periodic orbit of this map.
+        If the first branch cannot start, because the orbit is not a periodic orbit of this map, is at a bifurcation, or
+        belongs to a family.
 
     Examples
     --------
@@ -470,12 +484,12 @@ class Basins(Result):
     x, y : ndarray, shape (m,) and (n,)
         Centres of the cells.
     attractor : ndarray of int, shape (n, m)
-        Attractor 0, 1, … that the orbit from each cell reaches; −1 where no motion crosses the section, −2 where no
-        attractor is reached in 240 crossings.
+        Attractor 0, 1, … that the orbit from the centre of each cell reaches; −1 where no motion crosses the section,
+        −2 where no attractor is reached in 240 crossings.
     crossings : ndarray, shape (n, m)
         Crossings until the attractor is reached; NaN where none is.
     divergence : tuple of Contraction
-        Mean divergence on each set that orbits approach, an attractor or not.
+        Mean divergence on each set that orbits approach, an attractor or not, in 1/T.
     attractors : int
         Number of attractors.
     level : str
@@ -508,21 +522,23 @@ class Basins(Result):
 def basins(
     map_: ReturnMap, cells: tuple[int, int] = (16, 12), window: Window | None = None, duration: float = 1000.0
 ) -> Basins:
-    """Return the basins of attraction on a section, computed on all cores.
+    """Return the basins of attraction on a section, computed on up to eight cores.
 
     The sets that orbits approach are found from 256 orbits over the section.  A set is an attractor if the mean
-    divergence on it is negative by three times its error.
+    divergence on it is negative by more than three times its error.
 
     Parameters
     ----------
     map_ : ReturnMap
-        Return map of a section with two coordinates.  The four named levels are coarser here than for orbits.
+        Return map of a section with two coordinates.  The levels "standard", "precise" and "reference" are coarser here
+        than for orbits.  Orbits are followed forward in time even if the map is backward, and `longest` is not used.
     cells : (int, int), default (16, 12)
         Number of cells across and up, at most 100 000 together.
     window : ((float, float), (float, float)), optional
-        Corners (x0, y0) and (x1, y1) of the window.  By default the whole section.
+        Corners (x0, y0) and (x1, y1) of the window, lower left and upper right.  By default the whole section.
     duration : float, default 1000
-        Time over which the divergence is averaged, positive, in units T.
+        Time for which an orbit on each set is followed, positive, in units T; the divergence is averaged over its last
+        two thirds.
 
     Returns
     -------
@@ -533,8 +549,6 @@ def basins(
     ------
     InvalidParameter
         If the section has only one coordinate, or a number is out of range.
-    OutsideRegion
-        If no motion crosses the section.
     WorkLimit
         If an orbit needs too many steps.
 
@@ -575,7 +589,7 @@ def _values_of(values: dict[str, float | None], *names: str) -> list[float]:
     """Return the values of these integrals; no other integral may be given.  Raises `InvalidParameter`."""
     lost = [name for name in names if values[name] is None]
     if lost:
-        raise InvalidParameter(f"The section of this body lies at given {' and '.join(names)}: give {lost[0]}.")
+        raise InvalidParameter(f"The section of this body needs {' and '.join(names)}: give {lost[0]}.")
     extra = [name for name, value in values.items() if value is not None and name not in names]
     if extra:
         raise InvalidParameter(

@@ -113,11 +113,11 @@ def test_it_has_a_slider_for_each_parameter_and_initial_value_and_the_presets_as
 @mark.parametrize(
     ("given", "message"),
     [
-        ({"pictures": ["x q"]}, "has no 'q': choose among x, y, px, py"),
+        ({"pictures": ["x q"]}, "has no 'q'. Names allowed here: x, y, px, py"),
         ({"pictures": ["x"]}, "'x' is not a picture. Write the names of two"),
         ({"pictures": ["x y", "x y"]}, "a picture occurs twice"),
         ({"pictures": ["section at x = a"]}, "not a valid expression"),
-        ({"pictures": ["section on F"]}, "has no 'F': choose among E"),
+        ({"pictures": ["section on F"]}, "has no 'F'. Names allowed here: E"),
         ({"pictures": ["branch"]}, "a branch needs a section"),
         ({"sliders": {"lam": (1, 1)}}, "needs increasing ends"),
         ({"pictures": "x y"}, "pictures = 'x y' is not a sequence"),

@@ -80,14 +80,14 @@ def test_a_map_that_takes_long_is_left_out_and_the_page_says_so(values):
     if view.result.map is None:
         assert view.text["curve"].endswith("Omitted: too many steps.")
         (note,) = view.report.notes
-        assert note.endswith("choose larger I13 or I23, or a smaller 𝒟.")
+        assert note.endswith("larger |I13| or |I23|, or a smaller 𝒟.")
         assert " ".join(view.data["curve-message"]["text"][0].split()) == note
         assert "curve-ball" not in view.data or not len(view.data["curve-ball"]["xs"])
     else:
         assert np.all(np.isfinite(view.result.map.theta_plus))
         # If only the draft is possible it stays, and the background's message becomes the note.
         assert view.result.map.phis.size == (33 if view.refused else 65)
-        assert all(sentence.endswith("choose larger I13 or I23, or a smaller 𝒟.") for sentence in view.refused)
+        assert all(sentence.endswith("larger |I13| or |I23|, or a smaller 𝒟.") for sentence in view.refused)
     assert len(view.data["data-orbit"]["t"]) > 10
 
 
@@ -175,7 +175,9 @@ def test_where_the_energy_forbids_a_place_the_start_moves_to_the_edge_and_it_is_
 def test_a_section_that_takes_long_is_left_out_and_the_page_says_so(monkeypatch):
     monkeypatch.setattr("hess_explorer.scenes.ball_section._MOST_STEPS", 100)
     view = View(SECTION, {"psi": 1.2345, "count": 300.0})
-    reason = "The section is omitted: 300 crossings take an orbit more than 100 steps here: choose fewer crossings."
+    reason = (
+        "The section is omitted, because 300 crossings take an orbit more than 100 steps here: choose fewer crossings."
+    )
     assert view.report.notes == [reason]
     for picture in ("section", "returns"):
         assert view.text[picture].endswith("Omitted: too many steps.")

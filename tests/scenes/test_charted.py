@@ -193,7 +193,7 @@ def test_a_stored_sweep_is_shown_in_the_chart_of_a_scene():
     finally:
         STORED.clear()
     for found, said in (
-        (stored().isel(f=0), "this one is over h: open it in Python"),
+        (stored().isel(f=0), "this sweep over h: open it in Python"),
         (stored().isel(h=[0, 1, 3]), "over two parameters LOW:HIGH:COUNT"),
         (stored(phi=0.3), "No scene shows circle-map"),
     ):

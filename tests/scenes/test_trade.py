@@ -164,6 +164,6 @@ def test_a_chaotic_section_has_no_error_and_says_so():
 
 def test_what_is_too_large_to_be_measured_says_so():
     view = View(scenes()["singular-measures-accuracy"], {"h": 60.0, "span": 200.0}, seen=("trade",))
-    why = "In this time the cloud turns too often for 30 frames: choose a time span below "
+    why = "In this time the cloud moves too fast for 30 frames: choose a time span below "
     assert view.result.costs.caption().numbers.startswith(f"Cloud cannot be measured: {why}")
     assert view.report.todo == ()

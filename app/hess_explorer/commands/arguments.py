@@ -33,12 +33,17 @@ def user_object(text: str, kind: str, fits: Callable[[Any], bool]) -> Any:
     kind : str
         Kind of the object, for the error message.
     fits : callable
-        `fits(object)` returns whether the object is of this kind.
+        `fits(object)` returns True if the object is of this kind.
+
+    Returns
+    -------
+    object
+        The object.
 
     Raises
     ------
     CommandError
-        If the file defines no such object.
+        If the file raises an exception or defines no such object.
     """
     path, _, name = text.rpartition(":")
     found = run_file(path).get(name)
@@ -50,7 +55,7 @@ def user_object(text: str, kind: str, fits: Callable[[Any], bool]) -> Any:
 
 
 def integer(low: int, high: int) -> Callable[[str], int]:
-    """Return the argument type of an integer from `low` to `high`."""
+    """Return the argument type of an integer from `low` to `high`, both included."""
 
     # argparse names the type in its message if `int` raises ValueError.
     def integer(text: str) -> int:
@@ -72,7 +77,7 @@ def assignment_of(value: Callable[[str], T]) -> Callable[[str], tuple[str, T]]:
 
 
 def state(text: str) -> str:
-    """Return the encoded query of a link, which may lack the part up to "?"."""
+    """Return the URL-encoded query of a link, which may lack the part up to "?"."""
     from hess_explorer.protocol.specs import query_in
 
     query = query_in(text)

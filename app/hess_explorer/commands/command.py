@@ -35,7 +35,7 @@ class Command(argparse.ArgumentParser):
     options : sequence of Option
         Options and positional arguments.
     run : callable or None
-        Runs the command with the parsed options; raises `CommandError`.
+        Runs the command with the parsed options, and may raise `CommandError`; None for a command with help only.
     example : str
         Arguments of an example.
     """
@@ -70,6 +70,11 @@ class Command(argparse.ArgumentParser):
         words : sequence of str, optional
             The arguments, by default those of this process.
 
+        Returns
+        -------
+        Options
+            The values of the options.
+
         Raises
         ------
         CommandError
@@ -80,7 +85,7 @@ class Command(argparse.ArgumentParser):
         return self.parse_args(words)
 
     def error(self, message: str) -> NoReturn:
-        """Raise `CommandError`."""
+        """Raise `CommandError` with a message of `argparse`."""
         raise CommandError(f"{message} (see {self.prog} --help).")
 
     def list_words(self, heading: str, words: Mapping[str, str]) -> None:
@@ -101,7 +106,7 @@ def flag(name: str, help: str) -> Option:
 
 
 def integer_option(name: str, low: int, high: int, help: str, default: int) -> Option:
-    """Return the option of an integer from `low` to `high`."""
+    """Return the option of an integer from `low` to `high`, both included."""
     return option(name, f"{help} (default {default})", type=arguments.integer(low, high), metavar="N", default=default)
 
 

@@ -37,7 +37,7 @@ def parse(name: str, rest: list[str]) -> Options:
     Raises
     ------
     CommandError
-        If there is no such computation or system.
+        If there is no such computation or system, the system is missing, or an option is invalid.
     """
     of = {one.system: one for one in catalogue().values() if one.name == name}
     if not of:
@@ -69,7 +69,7 @@ def _own(name: str, text: str) -> Computation:
     system = user_object(text, "System", lambda found: isinstance(found, (System, Motions)))
     of = [one for one in computations_of(system).values() if one.name == name]
     if not of:
-        raise CommandError(f"The system {system.name} has no section, which {name} needs: choose another computation.")
+        raise CommandError(f"{name} needs a section or another system than {system.name}: choose another computation.")
     return of[0]
 
 
@@ -136,7 +136,7 @@ def _run(what: Computation, options: Options) -> None:
 
 
 def _notes_on_body(values: Mapping[str, Any]) -> list[str]:
-    """Return a note if no rigid body has these moments of inertia."""
+    """Return a list with a note if no rigid body has these moments of inertia, otherwise an empty list."""
     from hess_mechanics import HeavyBody, check_body
 
     checks: dict[tuple[str, ...], Callable[..., Any]] = {

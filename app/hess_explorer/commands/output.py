@@ -1,4 +1,4 @@
-"""Write results of commands as strict JSON, CSV or text, to standard output or a file."""
+"""Write results of commands as text, strict JSON, CSV or NetCDF, to standard output or a file."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ LONG = 2.0
 """Seconds after which a command reports that it is still running."""
 PATIENCE = "Still computing; Ctrl-C ends it."
 _ROWS = 20
-"""Most rows of a table in text."""
+"""Largest number of rows of a table that is printed as text."""
 _NULLS = "null stands for a number that is missing or exceeds the range of double precision."
 
 
 @contextmanager
 def long_computation(own_progress: bool = False) -> Iterator[None]:
-    """Print a message to stderr if the block takes long, and convert an overflow to `CommandError`.
+    """Print a message to stderr if the block takes longer than `LONG`, and convert an overflow to `CommandError`.
 
     Parameters
     ----------
     own_progress : bool
-        True if the command prints its own progress.
+        True if the command prints its own progress, so that no message is needed.
     """
     import numpy as np
 
@@ -64,8 +64,8 @@ def write(
         Options `format` and `out` of the command.
     table : pandas.DataFrame
         The columns.
-    facts : mapping of str
-        All other results.
+    facts : mapping of str to object
+        All other results, by name.
     data : callable
         Returns the columns as an xarray.Dataset.
     notes : sequence of str
@@ -74,7 +74,7 @@ def write(
     Raises
     ------
     CommandError
-        If the file cannot be written.
+        If the output cannot be written.
     """
     lost: list[str] = []
     known = _strict(facts, lost)
@@ -101,7 +101,7 @@ def _plain(value: Any) -> Any:
 
 
 def _strict(values: Mapping[str, Any], missing: list[str]) -> dict[str, Any]:
-    """Replace numbers that are not finite by null, and append their names to `missing`."""
+    """Return the values as types of JSON, with null for each NaN or ∞, which is appended to `missing` as text."""
     known: dict[str, Any] = json.loads(json.dumps(values, default=_plain), parse_constant=missing.append)
     return known
 
@@ -141,7 +141,10 @@ def _words(value: Any) -> str:
 
 
 def show(data: bytes, out: Path | None = None) -> None:
-    """Write data to a file, or to standard output as bytes, because names such as ω1 need UTF-8."""
+    """Write data to a file, or to standard output as bytes, because names such as ω1 need UTF-8.
+
+    Raises `CommandError` if the data cannot be written, or are binary and standard output is a terminal.
+    """
     if out is not None:
         write_file(out, data)
         return
@@ -159,7 +162,7 @@ def show(data: bytes, out: Path | None = None) -> None:
 
 
 def write_file(path: Path, data: bytes) -> None:
-    """Write a file, of which an earlier version stays until the new one is complete.  Raises `CommandError`."""
+    """Write a file atomically: an earlier version stays until the new one is complete.  Raises `CommandError`."""
     from hess_mechanics.numerics.files import write_atomically
 
     try:

@@ -25,8 +25,8 @@ def _run(options: Options) -> None:
             [
                 statement_text(proof),
                 *(f"{name.replace('_', ' ')}: {json.dumps(found[name])}" for name in names),
-                "The proof holds for the equations with exactly these numbers, provided that the ball arithmetic of "
-                "Arb is correct; --format json prints the certificate.",
+                "A proof holds for the equations with exactly these numbers, provided that the ball arithmetic of Arb "
+                "is correct; --format json prints the certificate.",
             ]
         )
     show(f"{text}\n".encode(), options.out)

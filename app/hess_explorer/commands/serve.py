@@ -81,9 +81,10 @@ def _run(options: Options) -> None:
 
 
 def _chart_link(results: xr.Dataset) -> str:
-    """Show a sweep over two evenly spaced parameters in the chart of a scene, and return the link of the state.
+    """Store a sweep over two evenly spaced parameters for the chart of a scene, and return the query of its state.
 
-    Raises `InvalidParameter` if no scene has such a chart.
+    Larger sweeps are thinned to at most 256 cells along each side.  Raises `InvalidParameter` if the axes are not
+    of this kind, or no scene has such a chart.
     """
     import numpy as np
 
@@ -98,8 +99,8 @@ def _chart_link(results: xr.Dataset) -> str:
     steps = [np.diff(side) for side in sides]
     if len(names) != 2 or not all(one.size and one[0] > 0.0 and np.allclose(one, one[0], atol=0.0) for one in steps):
         raise InvalidParameter(
-            f"A chart needs a sweep over two parameters LOW:HIGH:COUNT, and this one is over {', '.join(names)}: open "
-            "it in Python with hess_explorer.sweep.read."
+            f"A chart is over two parameters LOW:HIGH:COUNT, LOW < HIGH, unlike this sweep over {', '.join(names)}: "
+            "open it in Python with hess_explorer.sweep.read."
         )
     ends = ((side[0] - one[0] / 2.0, side[-1] + one[0] / 2.0) for side, one in zip(sides, steps, strict=True))
     window: Any = tuple(zip(*ends, strict=True))
@@ -133,7 +134,7 @@ def _same(arguments: Mapping[str, Any], cell: Mapping[str, float]) -> bool:
 
 
 def _lessons(paths: Sequence[Path]) -> tuple[Lesson, ...]:
-    """Return the lessons in files and folders.  Raises `CommandError`."""
+    """Return the lessons in files and folders; print mistakes.  Raises `CommandError` if no file has a valid lesson."""
     if not paths:
         return ()
     from hess_explorer.lessons.collection import read_paths
@@ -147,13 +148,13 @@ def _lessons(paths: Sequence[Path]) -> tuple[Lesson, ...]:
 
 
 def _first_words() -> str:
-    """Return the first message, with the expected duration of the start."""
+    """Return the message printed at the start, with the time that the start will take."""
     from hess_explorer.server.compiled import KEEPS_KERNELS, all_compiled
 
     if not KEEPS_KERNELS:
         return (
             "Compiling, ready in about 20 s.  Every start compiles again, because no cache folder is writable: set "
-            "NUMBA_CACHE_DIR to one."
+            "NUMBA_CACHE_DIR to a writable folder."
         )
     return "Starting, ready in a few seconds." if all_compiled() else "Compiling, ready in about 20 s."
 
@@ -175,12 +176,12 @@ circle_map(0.5, 1.5, 0.6, "draft").theta([0.0])
 
 
 def _require_free(address: str, port: int) -> None:
-    """Raise `CommandError` if the port is in use or cannot be opened."""
+    """Raise `CommandError` if the port is in use or cannot be opened, or the address is not one of this machine."""
     try:
         socket.create_server((address, port), family=socket.AF_INET6 if ":" in address else socket.AF_INET).close()
     except (OSError, UnicodeError) as error:
         raise CommandError(
-            f"{error}: choose another port, like --port {port % 65535 + 1}, or --address 127.0.0.1 or 0.0.0.0."
+            f"{error}: choose another --port, such as {port % 65535 + 1}, or --address 127.0.0.1 or 0.0.0.0."
         ) from error
 
 

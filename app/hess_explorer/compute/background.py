@@ -44,7 +44,7 @@ class Background:
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._job = _Job()
-        # Maps each running task, including those of earlier states, to the event that cancels it.
+        # Each running task, including those of earlier states, with the event that cancels it.
         self._running: list[tuple[Task[Any], threading.Event]] = []
 
     def follow(self, tasks: Collection[Task[Any]]) -> None:
@@ -54,7 +54,7 @@ class Background:
         self.add(tasks)
 
     def add(self, tasks: Collection[Task[Any]]) -> None:
-        """Queue further tasks behind the present ones."""
+        """Queue further tasks of the present state behind its other tasks."""
         job = self._job
         with self._lock:
             job.tasks.extend(tasks)
@@ -99,7 +99,7 @@ class Background:
 
     @property
     def backlog(self) -> int:
-        """The number of unfinished tasks."""
+        """The number of unfinished tasks of the present state."""
         with self._lock:
             return len(self._job.tasks) + self._job.running
 

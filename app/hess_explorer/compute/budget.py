@@ -31,7 +31,17 @@ class OverBudget(WorkLimit):
 
 
 class Budget:
-    """CPU budget of the answering thread; helpers charge it through `spend`."""
+    """CPU and wall-clock budget of the answering thread; helpers charge their CPU time through `spend`.
+
+    Parameters
+    ----------
+    cancellation : threading.Event
+        Set when the client has disconnected.
+    seconds, wait : float
+        Limits of CPU time and of wall-clock time, in seconds.
+    what : str
+        Subject of the error message.
+    """
 
     def __init__(self, cancellation: threading.Event, seconds: float, wait: float, what: str) -> None:
         self.cancellation, self.seconds, self.wait, self.subject = cancellation, seconds, wait, what
@@ -70,6 +80,11 @@ def time_budget(
         Limits of CPU time and of wall-clock time, in seconds.
     what : str
         Subject of the error message.
+
+    Yields
+    ------
+    Budget
+        The budget.
     """
     budget = Budget(cancellation, seconds, wait, what)
     token = _budget.set(budget)

@@ -22,7 +22,7 @@ _OVERHEAD, _NUMBER = 512, 64
 
 
 def size_of(value: Any) -> int:
-    """Return the size of a result in bytes: all arrays in dataclasses, mappings and tuples, plus overhead."""
+    """Return the size of a result in bytes: arrays in dataclasses, mappings, tuples and lists, plus overhead."""
     # Test for the most frequent type first.
     if type(value) is float:
         return _NUMBER
@@ -39,7 +39,15 @@ def size_of(value: Any) -> int:
 
 @dataclass(frozen=True, init=False)
 class Task(Generic[T_co]):
-    """A deferred computation function(*arguments), whose result goes into the cache."""
+    """A deferred computation function(*arguments), whose result goes into the cache.
+
+    Attributes
+    ----------
+    function : callable
+        Pure function, which the cache identifies by its module and qualified name.
+    arguments : tuple of hashable
+        Positional arguments.
+    """
 
     function: Callable[..., T_co]
     arguments: tuple[Hashable, ...]
@@ -53,15 +61,25 @@ class Task(Generic[T_co]):
         return self.function(*self.arguments)
 
     def get(self) -> T_co:
-        """Return the result, computed at most once."""
+        """Return the result from the cache, computed now if it is not there.  Raises as `budget.check`."""
         return cast(T_co, CACHE.get(self.function, *self.arguments)[0])
 
 
 class ResultCache:
     """Thread-safe LRU cache of results by function and arguments.
 
-    Functions must be pure, arguments hashable and results frozen.  Errors are not cached; they are raised in all
-    threads that wait for the same result.
+    Functions must be pure, arguments hashable and results frozen.  Errors are not cached.  They are raised in all
+    threads that wait for the same result, except `ClientGone` and `OverBudget`: those threads then compute it again.
+
+    Parameters
+    ----------
+    capacity : int
+        Largest total size of the results, in bytes.
+
+    Attributes
+    ----------
+    hits, misses : int
+        Numbers of lookups that found a result, finished or under way, and of those that had to compute it.
     """
 
     def __init__(self, capacity: int) -> None:
@@ -72,7 +90,10 @@ class ResultCache:
         self._running: dict[Hashable, Future[Any]] = {}
 
     def get(self, function: Callable[..., Any], *arguments: Hashable) -> tuple[Any, bool]:
-        """Return (function(*arguments), hit); hit is True if the result was cached.  Raises as `budget.check`."""
+        """Return (function(*arguments), hit); hit is False if this call computed the result.
+
+        Raises as `budget.check` and as the function.
+        """
         check()
         key = _key(function, arguments)
         with self._lock:
@@ -105,7 +126,7 @@ class ResultCache:
         return value, False
 
     def peek(self, function: Callable[..., Any], *arguments: Hashable) -> Any | None:
-        """Return the cached result of function(*arguments), or None; a cached result counts as a hit."""
+        """Return the cached result of function(*arguments), a hit, or None, which does not count as a miss."""
         key = _key(function, arguments)
         with self._lock:
             self.hits += key in self._results
@@ -118,7 +139,7 @@ class ResultCache:
 
     @property
     def lookups(self) -> int:
-        """The number of lookups so far."""
+        """The number of hits and misses so far."""
         return self.hits + self.misses
 
     def metrics(self) -> dict[str, int]:

@@ -32,17 +32,17 @@ Outcomes: TypeAlias = NDArray[np.uint8]
 
 
 class UserError(Exception):
-    """An exception of a function of the user, with its type and text."""
+    """An exception that a user's function raised; the message has its type and text."""
 
 
 class Outcome(IntEnum):
-    """Status of a cell.  From 10 on it has no number: NaN, or ∞ if the number exceeds double precision."""
+    """Status of a cell.  From 10 on all numbers of the cell are NaN, or infinite beyond the range of doubles."""
 
     words: str
     """The status in words."""
 
     def __new__(cls, code: int, words: str = "") -> Self:
-        """Return the member of a code."""
+        """Return the member with a code and its words."""
         found = int.__new__(cls, code)
         found._value_, found.words = code, words
         return found
@@ -87,10 +87,11 @@ class CellResults:
         The numbers by name.
     errors : mapping of str to array (n,)
         Their estimated errors, where estimates exist.
-    status : array (n,) of Outcome
-        Status of each cell.
+    status : array (n,) of uint8
+        Status of each cell, an `Outcome`.
     reasons : mapping of int to str
-        The reason why a cell has no number, or which of its numbers is missing, by index of the cell.
+        The reason why a cell has no number, or why one of its numbers is missing, by index of the cell; no entry for a
+        cell that is only beyond double precision.
     """
 
     values: Mapping[str, Array]
@@ -114,9 +115,9 @@ def failure(error: Exception, cell: Mapping[str, object]) -> tuple[Outcome, str]
 
 
 def evaluate(what: Computation, numbers: Sequence[str], columns: Mapping[str, Array], level: Level) -> CellResults:
-    """Evaluate numbers of a computation at n cells.
+    """Return numbers of a computation at n cells.
 
-    Each cell without any finite number has a status and a message.
+    A cell without any finite number has a status of 10 or more.
 
     Parameters
     ----------
@@ -128,6 +129,16 @@ def evaluate(what: Computation, numbers: Sequence[str], columns: Mapping[str, Ar
         Values of parameters; all others have their defaults.
     level : Level
         Level of accuracy.
+
+    Returns
+    -------
+    CellResults
+        Values, errors and status of the cells.
+
+    Raises
+    ------
+    ClientGone, OverBudget
+        As `budget.check`.
     """
     count = next(iter(columns.values())).size
     with np.errstate(all="ignore"):
@@ -139,7 +150,7 @@ def evaluate(what: Computation, numbers: Sequence[str], columns: Mapping[str, Ar
 def _at_once(
     what: Computation, numbers: Sequence[str], columns: Mapping[str, Array], level: Level, count: int
 ) -> CellResults | None:
-    """Evaluate all cells in one call; return None if a number has no such function, or if a cell fails."""
+    """Evaluate all cells in one call; return None if it does not give all of the numbers, or raises a `ModelError`."""
     assert what.vectorized is not None
     every = {one.name: np.full(count, one.default) for one in what.parameters} | dict(columns)
     try:

@@ -23,7 +23,13 @@ PATIENCE = 1.0
 
 
 class Pool:
-    """Runs the requests of all sessions in rotation, and background tasks when a core is free."""
+    """Runs the requests of all sessions in rotation, and background tasks when a core is free.
+
+    Parameters
+    ----------
+    cores : int
+        Number of cores; one more thread answers requests.
+    """
 
     def __init__(self, cores: int) -> None:
         # One more thread than cores, so that a slow request does not block the others.  Many more threads would delay
@@ -85,7 +91,7 @@ class RequestQueue:
     Attributes
     ----------
     served : float
-        Time at which the last request ended, in seconds.
+        Time at which the last request ended, in seconds of the monotonic clock; 0 before.
     """
 
     def __init__(self) -> None:
@@ -96,7 +102,7 @@ class RequestQueue:
         self._left = threading.Event()
 
     def put(self, request: Callable[[], None]) -> None:
-        """Queue a request; if too many wait, the oldest is dropped."""
+        """Queue a request; if too many wait, the oldest is dropped.  After `end` it does nothing."""
         with self._lock:
             if self._left.is_set():
                 return
@@ -106,7 +112,7 @@ class RequestQueue:
             POOL.answer(self)
 
     def end(self) -> None:
-        """Drop the waiting requests; the running one ends at the next check of its budget."""
+        """Drop the waiting and all later requests; the running one ends at the next check of its budget."""
         with self._lock:
             self._left.set()
             self._waiting.clear()

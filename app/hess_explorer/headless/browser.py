@@ -22,7 +22,7 @@ _QUIET = ("--disable-background-networking", "--disable-component-update", "--di
 
 
 class BrowserError(ModelError):
-    """No usable browser was found; the message contains a remedy."""
+    """No usable browser was found, or it could not draw; the message contains a remedy."""
 
 
 def find_browser(playwright_own: str) -> str | None:
@@ -38,7 +38,7 @@ def find_browser(playwright_own: str) -> str | None:
     Returns
     -------
     str or None
-        Path of the program.
+        Path of the program; None if no Chromium is found.
 
     Raises
     ------
@@ -59,13 +59,13 @@ def find_browser(playwright_own: str) -> str | None:
 
 
 def is_root() -> bool:
-    """Return whether this process runs as root."""
+    """Return True if this process runs as root."""
     return hasattr(os, "geteuid") and os.geteuid() == 0
 
 
 @contextmanager
 def headless_browser() -> Iterator[Browser]:
-    """Yield a running headless browser.  Raises `BrowserError`."""
+    """Yield a running headless browser.  Raises `BrowserError` if there is none or it does not start."""
     try:
         from playwright.sync_api import sync_playwright
     except ImportError as error:

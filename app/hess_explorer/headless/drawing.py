@@ -45,7 +45,7 @@ class _Studio:
         atexit.register(self._close)
 
     def run(self, act: Callable[[Browser], T]) -> T:
-        """Run `act(browser)` in the thread of the browser.  Raises `BrowserError`."""
+        """Run `act(browser)` in the thread of the browser and return its result.  Raises `BrowserError`."""
         future: Future[T] = Future()
         self._jobs.put((future, act))
         return future.result()
@@ -74,7 +74,7 @@ def _studio() -> _Studio:
 
 
 def _in_browser(act: Callable[[Browser], T]) -> T:
-    """Run `act(browser)` and convert errors of Playwright to `BrowserError`."""
+    """Return `act(browser)`, with errors of Playwright converted to `BrowserError`."""
 
     def act_or_say(browser: Browser) -> T:
         from playwright.sync_api import Error
@@ -157,7 +157,7 @@ def png_of(data: PictureData, width: float = 85.0, black: bool = False) -> bytes
     data : PictureData
         The picture, not a plot.
     width : float
-        Width in millimetres.
+        Width in millimetres, within `WIDTHS`.
     black : bool
         True for black on white instead of the colours of the page.
 
@@ -172,6 +172,8 @@ def png_of(data: PictureData, width: float = 85.0, black: bool = False) -> bytes
         If the width is not supported.
     BrowserError
         If there is no browser, or the picture cannot be drawn.
+    ModelError
+        If the state cannot be computed.
     """
     WIDTHS.require("A figure", width, "mm wide")
     with page_of(data) as draw:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 def content(
     data: PictureData, request: FileRequest, report: Callable[[int, int], None] = lambda done, of: None
 ) -> bytes:
-    """Return the contents of a file.
+    """Return the contents of a file with a picture or its data.
 
     Parameters
     ----------
@@ -28,14 +28,19 @@ def content(
     request : FileRequest
         The format and its settings.
     report : callable
-        Progress callback of `as_film`.
+        Progress callback of `as_film`; not used for other files.
+
+    Returns
+    -------
+    bytes
+        The contents.
 
     Raises
     ------
     InvalidParameter
         If a setting is not supported, or a library is not installed.
     BrowserError
-        If a browser is needed and there is none.
+        If a browser is needed, and there is none or it cannot draw the picture.
     """
     kind, width, black = request.kind, request.width, request.black
     if FORMATS[kind].content == "film":

@@ -21,7 +21,7 @@ _CODECS: Mapping[str, str] = {
 }
 """Options of ffmpeg for each format; thin lines stay clear, and a minute takes a few megabytes."""
 _REPEATABLE = "-fflags +bitexact -flags:v +bitexact -threads 1"
-"""The same bytes for the same frames."""
+"""Options of ffmpeg for the same bytes from the same frames."""
 
 _RATE = 25
 """Frames per second."""
@@ -97,7 +97,7 @@ def as_film(
     Raises
     ------
     InvalidParameter
-        If width or duration are not supported, nothing moves, or a library is not installed.
+        If width or duration are not supported, nothing moves, a library is not installed, or the encoder fails.
     BrowserError
         If there is no browser, or the picture cannot be drawn.
     """

@@ -22,7 +22,7 @@ _LOAD_SECONDS = 120
 
 
 class ServerError(ModelError):
-    """The server or the page did not become ready; the message contains the reason."""
+    """The server did not start; the message contains the reason, or says how to see it."""
 
 
 def free_port() -> int:
@@ -59,10 +59,17 @@ def server_process(
     options : sequence of str
         Further options of `serve`.
 
+    Yields
+    ------
+    process : subprocess.Popen
+        The process; it is terminated afterwards.
+    url : str
+        Base URL of the page, without a slash at the end.
+
     Raises
     ------
     ServerError
-        If the server does not respond in time.
+        If the server ends, or does not respond within 60 s.
     """
     port = free_port()
     command = [sys.executable, *program, "serve", "--port", str(port), "--no-browser", *options]
@@ -91,7 +98,7 @@ def screenshot(query: str, size: tuple[int, int]) -> bytes:
     ----------
     query : str
         Query of the state, URL-encoded.
-    size : tuple of int
+    size : (int, int)
         Width and height of the viewport in pixels.
 
     Returns

@@ -19,7 +19,7 @@ from hess_mechanics.errors import InvalidParameter, MissingLibrary
 from hess_mechanics.numerics.labelled import Labels, Result
 
 _MILLIMETRES = 71.0
-"""Size of the image, which gives two of its pixels per pixel of the figure."""
+"""Width of the image, which gives it two pixels per pixel of the figure."""
 
 
 @cache
@@ -78,7 +78,7 @@ def _image(data: PictureData) -> Any:
 
 
 def draw_result(result: Result) -> Any:
-    """Return a plot of a result, with a panel for each variable.
+    """Return a plot of a result, with a panel for each real variable over a coordinate.
 
     Parameters
     ----------
@@ -88,8 +88,8 @@ def draw_result(result: Result) -> Any:
     Returns
     -------
     holoviews.Path, holoviews.Image, holoviews.Points or holoviews.Layout
-        Curves over the coordinate, or a map over two coordinates; without coordinates the points of a plane whose axes
-        are the first two variables.
+        Curves over the last dimension, or a map over two dimensions if both have coordinates.  A result without
+        coordinates is drawn as points, with its first two variables as axes.
 
     Raises
     ------
@@ -116,7 +116,7 @@ def draw_result(result: Result) -> Any:
         if len(dims) in (1, 2) and dims[-1] in axes and values.dtype.kind == "f"
     ]
     if not panels:
-        raise InvalidParameter(f"A {type(result).__name__} has no curve to draw: use `to_xarray()` for its numbers.")
+        raise InvalidParameter(f"A {type(result).__name__} has nothing to draw: use `to_xarray()` for its numbers.")
     return hv.Layout(panels).cols(2) if len(panels) > 1 else panels[0]
 
 

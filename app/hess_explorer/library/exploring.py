@@ -144,7 +144,13 @@ def _origins() -> tuple[str, ...]:
 
 
 def serve_alone(port: int) -> None:
-    """Run the server of an `Exploration`, and print its messages as lines of JSON [word, text]."""
+    """Run the server of an `Exploration` until standard input ends, and print its messages as JSON lines [word, text].
+
+    Parameters
+    ----------
+    port : int
+        TCP port on 127.0.0.1.
+    """
 
     def tell(word: str, text: str = "") -> None:
         print(json.dumps([word, text]), flush=True)

@@ -70,9 +70,9 @@ class OwnScene(Scene[OwnState]):
 
     @property
     def moves(self) -> str:
-        """A sentence on the controls."""
+        """A sentence on the effect of the controls."""
         chosen = "a click in the section chooses" if issubclass(self.state, LevelState) else "the initial values choose"
-        return f"The parameters change the equations, {chosen} the motion."
+        return f"The parameters change the equations; {chosen} the motion."
 
 
 @check_arguments
@@ -104,12 +104,13 @@ def scene(
           Click to choose the motion, scroll or draw a box to zoom;
         - "section x px at y = 0 on E, L": Poincaré section at levels of these integrals;
         - "branch": continuation of a periodic orbit of that section over a parameter or a level;
-        - "chart": MEGNO or the exponent over two of the sliders.
+        - "chart": a number over two of the sliders, such as MEGNO or the largest Lyapunov exponent.
     sliders : mapping of str to (float, float), optional
-        Ends of the sliders, by the names of parameters, variables and integrals.  Those of a coordinate of the section
-        are also its range.
+        Ends of the sliders, by the names of parameters, variables and integrals: increasing, within ±1e6.  Those of a
+        coordinate of the section are also its range.
     presets : mapping of str to mapping, optional
-        Named states: values by the names of parameters, variables and integrals.
+        Named states: values by the names of parameters and variables, or integrals if these have sliders instead.  By
+        default one preset, the example of the system.
     text : str, optional
         Text beside the pictures, in Markdown with formulas.
 
@@ -122,7 +123,10 @@ def scene(
     Raises
     ------
     InvalidParameter
-        If a picture, slider or preset names something that the system does not have.
+        If an argument has the wrong type; if a picture, slider or preset names something that the system does not have,
+        or a name cannot be used in a link; if a text is not a picture, a picture occurs twice, or there are two
+        spheres; if a branch has no section, or the section does not have two coordinates; or if the ends of a slider
+        do not increase or exceed ±1e6.
 
     Examples
     --------
@@ -216,7 +220,10 @@ def _charts(system: System, fields: Sequence[str]) -> Charts:
 
 
 def _section_of(system: System, pictures: Sequence[str]) -> dict[str, Any]:
-    """Return surface, coordinates and levels of the section in the list of pictures.  Raises `InvalidParameter`."""
+    """Return surface, coordinates and integrals of the section among the pictures; empty without a section.
+
+    Raises `InvalidParameter`.
+    """
     found = next(filter(None, map(_SECTION.fullmatch, pictures)), None)
     if found is None:
         if _BRANCH in pictures:
@@ -238,7 +245,7 @@ def _section_of(system: System, pictures: Sequence[str]) -> dict[str, Any]:
 
 
 def _checked_section(system: System, section: Mapping[str, Any]) -> VariableSection:
-    """Return the section at the example.  Raises `InvalidParameter` if it has only one coordinate."""
+    """Return the section at the example.  Raises `InvalidParameter` if it does not have two coordinates."""
     found = None
     if len(system.variables) > 2:
         known = {name: float(value) for name, value in system.integrals(*system.example).items()}
@@ -254,7 +261,7 @@ def _checked_section(system: System, section: Mapping[str, Any]) -> VariableSect
 
 
 def _point(section: VariableSection) -> str:
-    """Return the point where the motion of the example first crosses a section, or any point with a motion."""
+    """Return, as text, where the motion of the example first crosses the section, or else a point with a motion."""
     point = None
     with suppress(ModelError):
         point = first_point(section, section.system.example[0])
@@ -267,9 +274,9 @@ def _point(section: VariableSection) -> str:
 
 
 def _fields(system: System, integrals: Sequence[str] | None) -> dict[str, tuple[str, float]]:
-    """Return the field and the default of each parameter, and of each variable or of these integrals.
+    """Return the field and the default of each parameter, and of each variable or, if given, of these integrals.
 
-    Raises `InvalidParameter`.
+    Raises `InvalidParameter` if a name cannot be used in a link.
     """
     state, values = system.example
     known = {name: (f"p_{name}", value) for name, value in zip(system.parameters, values, strict=True)}
@@ -293,13 +300,13 @@ _KINDS: Mapping[str, tuple[str, str, str, Group]] = {
 
 
 def _slider(system: System, name: str, field: str, default: float, ends: tuple[float, float] | None) -> Any:
-    """Return the field of a parameter, an initial value or an integral."""
+    """Return the slider of a parameter, an initial value or an integral.  Raises `InvalidParameter`."""
     symbol, label, doc, group = _KINDS[field[0]]
     around = abs(default) or 1.0 if field[0] == "i" else max(1.0, abs(default))
     low, high = ends or (default - around, default + around)
     if not -_FARTHEST <= low < low + (high - low) / 200.0 < high <= _FARTHEST:
         raise InvalidParameter(
-            f"{system.title}: the slider of {name} from {low:g} to {high:g} needs increasing ends up to ±{_FARTHEST:g}."
+            f"{system.title}: the slider of {name} ({low:g} to {high:g}) needs increasing ends within ±{_FARTHEST:g}."
         )
     return number(
         symbol.format(name),
@@ -316,7 +323,7 @@ def _slider(system: System, name: str, field: str, default: float, ends: tuple[f
 
 def _require(system: System, name: str, allowed: Sequence[str]) -> str:
     if name not in allowed:
-        raise InvalidParameter(f"{system.title} has no {name!r}: choose among {', '.join(allowed) or 'none'}.")
+        raise InvalidParameter(f"{system.title} has no {name!r}. Names allowed here: {', '.join(allowed) or 'none'}.")
     return name
 
 
@@ -351,7 +358,7 @@ def _picture(system: System, picture: str, leveled: bool) -> Picture[Any]:
     if len(names) != 2:
         raise InvalidParameter(
             f"{system.title}: {picture!r} is not a picture. Write the names of two variables, t and one of them, three "
-            f"for a sphere, section, or {_EXPONENT}."
+            f"for a sphere, section, branch, chart or {_EXPONENT}."
         )
     x, y = _require(system, names[0], ("t", *system.variables)), _require(system, names[1], system.variables)
     return orbit_picture(x, y, f"{y} over {x}", name=f"{x}-{y}")

@@ -43,6 +43,19 @@ class OwnState(State):
     """A motion of a system; each scene adds the system's parameters, `p_…`, and initial values, `y_…`, as fields.
 
     A scene with a section also adds its `window` and the `indicator` under its points.
+
+    Attributes
+    ----------
+    system : System
+        The system.
+    angles : tuple of str
+        Variables that are angles, in radians.
+    surface : (str, float) or None
+        Variable of the section and its value there; None for the default of `variable_section`.
+    coordinates : (str, str) or None
+        Coordinates of the section; None for the default of `variable_section`.
+    ranges : tuple of (float, float) or None
+        Range of each coordinate; None for the default of `variable_section`.
     """
 
     span: float = time_span(30.0, 300.0)
@@ -93,14 +106,14 @@ class OwnState(State):
     exponent = part(OrbitExponent)
 
     def levels(self) -> dict[str, float]:
-        """Return the levels of the integrals of the section: their values along the motion."""
+        """Return the levels of the section: the first d − 3 integrals by name, with their values along the motion."""
         known = self.system.integrals(self.chosen_start, self.body.parameters)
         needed = len(self.system.variables) - 3
         return {name: float(value) for name, value in [*known.items()][:needed]}
 
     @cached_property
     def poincare(self) -> VariableSection:
-        """The section."""
+        """The section at `levels`.  Raises `InvalidParameter`."""
         return variable_section(self.body, self.levels(), self.surface, self.coordinates, self.ranges)
 
     section = part(Section)
@@ -126,7 +139,13 @@ class OwnState(State):
 
 @dataclass(frozen=True)
 class LevelState(OwnState):
-    """A motion from a point of a section; each scene adds the levels of integrals, `i_…`, and the `place`."""
+    """A motion from a point of a section; each scene adds the levels of integrals, `i_…`, and the `place`.
+
+    Attributes
+    ----------
+    integrals : tuple of str
+        Names of the integrals with a level.
+    """
 
     periodic: str = choice_of_orbit()
     reach: float = length_of_manifolds()
@@ -151,7 +170,7 @@ class LevelState(OwnState):
 
     @property
     def closed_orbit(self) -> ClosedOrbit | None:
-        """The periodic orbit; None if unknown."""
+        """The periodic orbit; None if none is requested or known."""
         return self.periodic_orbit.closed_orbit
 
     periodic_orbit = part(lambda s: SectionPeriodicOrbit(s.section, s.periodic, s.reach))

@@ -58,6 +58,8 @@ class SceneState:
     def body(self) -> Any:
         """The body, for example a `HessBody` or `SuslovBody`; None if the scene has no body.
 
+        Some scenes have a `Bridge` between two bodies or a `LoxodromicPendulum` instead.
+
         Raises
         ------
         ModelError
@@ -78,7 +80,9 @@ class SceneState:
 
     @property
     def section(self) -> Any:
-        """The Poincaré section of the scene; None without a section.
+        """The Poincaré section with its coordinates; None if the scene has no such section.
+
+        A scene of your own without the picture "section" has the default section of `variable_section`.
 
         Raises
         ------
@@ -113,7 +117,7 @@ class SceneState:
 
     @property
     def parameters(self) -> Mapping[str, Value]:
-        """The values of all parameters by name."""
+        """The values of the parameters of the scene by name, without `t`, `az` and `el`."""
         return MappingProxyType(dict(self._address.values))
 
     @property
@@ -123,7 +127,7 @@ class SceneState:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Corrections of the link from which the state was read."""
+        """Corrections of the link that `from_link` has read with `lenient`; otherwise empty."""
         return self._address.notes
 
     @property
@@ -147,7 +151,7 @@ class SceneState:
         Raises
         ------
         InvalidParameter
-            If a name or a value is not allowed.
+            If a name, a value or a combination of values is not allowed.
 
         Examples
         --------
@@ -195,7 +199,9 @@ class SceneState:
         Raises
         ------
         InvalidParameter
-            If the scene has no such picture, or if an image needs Matplotlib and it is not installed.
+            If the scene has no such picture.
+        MissingLibrary
+            If an image needs Matplotlib and it is not installed.
         BrowserError
             If an image needs a browser and there is none.
         ModelError
@@ -213,7 +219,7 @@ class SceneState:
         picture : str
             Name of the picture; the first picture by default.
         width : float
-            Width in millimetres.
+            Width in millimetres, 20 to 400.
         black : bool
             True for black on white instead of the colours of the page.
 
@@ -255,11 +261,11 @@ class SceneState:
         picture : str
             Name of the picture; the first picture by default.
         width : float
-            Width of a figure or film in millimetres.
+            Width in millimetres: of a figure, 20 to 400; of a film, 60 to 160.
         black : bool
             True for black on white instead of the colours of the page.
         seconds : float
-            Duration of a film in seconds.
+            Duration of a film in seconds, 1 to 60.
 
         Returns
         -------
@@ -269,7 +275,8 @@ class SceneState:
         Raises
         ------
         InvalidParameter
-            If the format is unknown or the scene has no such picture.
+            If `file` is not a path, the format is unknown, or the scene has no such picture; if width or duration are
+            out of range; if nothing moves in a film; or if a library is not installed.
         BrowserError
             If the file needs a browser and there is none.
         ModelError
@@ -370,7 +377,8 @@ def state(scene: str | Scene[Any] = "suslov-hess", /, **parameters: Any) -> Scen
     Raises
     ------
     InvalidParameter
-        If a name or a value is not allowed; the message lists the allowed ones.
+        If there is no such scene, or a name, a value or a combination of values is not allowed; the message says what
+        is allowed.
 
     Examples
     --------
@@ -435,7 +443,7 @@ def from_link(link: str, *, lenient: bool = False) -> SceneState:
 
 
 def _validate(spec: Spec, value: Any) -> Value:
-    """Return the value of a parameter.  Raises `InvalidParameter`."""
+    """Return the given value as the value of a parameter.  Raises `InvalidParameter` if it is not allowed."""
     found: Value
     note: str | None
     if isinstance(spec, NumberSpec):
@@ -458,7 +466,7 @@ def _validate(spec: Spec, value: Any) -> Value:
 
 
 def _first(state: Any, names: tuple[str, ...]) -> Any:
-    """Return the first existing property of a scene's state among these names, or None."""
+    """Return the value of the first of these names that is a property of the state; None without one."""
     return next(
         (
             getattr(state, name)

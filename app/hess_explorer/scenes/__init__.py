@@ -1,4 +1,4 @@
-"""All scenes: those of this package and of plugins, those of the user, and "Speed and accuracy" for each of them."""
+"""All scenes: those of this package and of plugins, those of the user, and "Speed and accuracy" of each."""
 
 from __future__ import annotations
 
@@ -20,7 +20,10 @@ _additions: list[Scene[Any]] = []
 
 @cache
 def scenes() -> dict[str, Scene[Any]]:
-    """Return all scenes by name in menu order: added scenes first, "Speed and accuracy" scenes last."""
+    """Return all scenes by name in menu order: added scenes first, "Speed and accuracy" scenes last.
+
+    Raises `InvalidParameter` if two scenes have the same name, or an entry point is not a scene.
+    """
     own = _package_scenes() + [_require_scene(one.load(), one.value) for one in entry_points(group=PLUGINS)]
     own = [*_additions, *sorted(own, key=lambda scene: scene.place)]
     found = {scene.name: scene for scene in [*own, *(speed_and_accuracy(scene) for scene in own if scene.trials)]}
@@ -55,7 +58,7 @@ def add(scene: Any, source: str) -> None:
     Raises
     ------
     InvalidParameter
-        If it is not a scene, or its name is taken.
+        If it is not a scene, or its name is taken; then the scene is not added.
     """
     _additions.append(_require_scene(scene, source))
     scenes.cache_clear()

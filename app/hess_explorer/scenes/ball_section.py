@@ -139,7 +139,7 @@ class BallSectionState(SectionState):
         psi = self.psi if self.band is None else nearest_possible_psi(self.band, self.psi)
         if psi != self.psi:
             notes.append(
-                f"With this energy γ cannot lie on the plane at ψ = {digits(self.psi)}: ψ was set to {digits(psi)}."
+                f"With this energy no motion crosses the section at ψ = {digits(self.psi)}: ψ was set to {digits(psi)}."
             )
         return self.with_values({"psi": psi})
 
@@ -155,7 +155,7 @@ class BallSectionState(SectionState):
 
     @cached_property
     def chosen_start(self) -> tuple[float, ...]:
-        """The state at (ψ, δ) of the section."""
+        """The state (5,) at (ψ, δ) of the section."""
         return self.poincare.state_at(self.psi, self.delta)
 
     @cached_property
@@ -192,13 +192,16 @@ class BallSectionState(SectionState):
         return half_width_for(float(np.hypot(*self.orbit.path.states[:, :2].T).max()))
 
     def forbidden(self, axes: Axes) -> list[list[Array]]:
-        """Return the forbidden band of ψ as rectangles."""
+        """Return the forbidden band of ψ as rectangles; empty if every ψ is possible or the section is omitted."""
         if self.band is None or self.section.known_orbits.reason:
             return []
         return section_plane.band(*self.band, 2.0 * math.pi, axes)
 
     def returns(self) -> Array | None:
-        """Return consecutive values (ψ, next ψ) of the chosen orbit (n, 2)."""
+        """Return pairs (ψ, next ψ) of consecutive crossings of the periodic orbit, or else of the chosen one, (n, 2).
+
+        None if the section is omitted and there is no periodic orbit.
+        """
         closed = self.closed_orbit
         if closed is not None:
             psi = closed.orbit.points[:, 0]

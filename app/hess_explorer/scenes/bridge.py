@@ -52,9 +52,9 @@ SUSLOV, HEAVY = "Suslov–Hess", "Euler–Poisson"
 _IN_A_PERIOD = 40
 _MOST_PERIODS = 200
 _IN_A_DRAG = 30
-"""Number of periods of the difference while a slider is held."""
+"""Largest number of periods over which the difference is computed: at rest, and while a slider is held."""
 _MOST_GROWTH = 3000.0
-"""Largest logarithm of the leak that is computed: the cost grows with |a|."""
+"""Bound on the growth of ln |r·M| over the computed time, because the cost grows with |a|."""
 _BOTTOM = -1.0 + 1e-9
 
 PRESETS = (
@@ -117,7 +117,7 @@ class BothSides(State):
         return HeavyHess((self.I1, self.I2, self.I3), self.m, self.h, self.f)
 
     def valid_state(self, notes: list[str]) -> BothSides:
-        """Clamp the parameters of the given side to a valid motion."""
+        """Clamp the parameters of the given side to a valid motion; append a note for each change."""
         if self.given == HEAVY:
             return self.with_values(self.heavy.corrections(notes))
         h = max(self.h, _BOTTOM)
@@ -156,7 +156,7 @@ class BothSides(State):
         translate = bridge.in_units_of_b if before.given == HEAVY else bridge.from_units_of_b
         h, f = map(_without_round_off, translate(before.h, before.f))
         shown = before.idle_values()
-        # Units b = 1 hide the sign of b; here b > 0, so μ < 0 reverses the vertical.
+        # Units b = 1 hide the sign of b, and the slider of b₃ < 0 implies b > 0: for μ < 0 the vertical is reversed.
         return {**others, **shown, **({"b3": -abs(shown["b3"])} if "b3" in shown else {}), "h": h, "f": f}
 
     @cached_property
@@ -184,7 +184,7 @@ class BothSides(State):
         return self.map.period / self.bridge.hess.frequency_unit
 
     def ring(self) -> tuple[Array, Array]:
-        """Return the two ellipses that bound ω."""
+        """Return the inner and the outer ellipse that bound ω."""
         return annulus(self.bridge.hess, self.map.h, self.turning_points)
 
     @cached_property
@@ -211,12 +211,12 @@ class BothSides(State):
 
     @cached_property
     def cycles(self) -> tuple[Track, Track] | None:
-        """The stable and the unstable limit cycle, if they exist."""
+        """The stable and the unstable limit cycle; None without limit cycles."""
         return hess_case.limit_cycles(self.work, self.bridge.hess, self.map, self.level, self.half_width)
 
     @cached_property
     def iterates(self) -> Array:
-        """φ0 and its iterates under the circle map, up to the end of the orbit."""
+        """φ0 and its iterates under the circle map, up to the end of the orbit, at most `MAX_RETURNS` of them."""
         returns = max(1, math.ceil(self.span * self.bridge.hess.frequency_unit / self.map.period))
         return self.map.iterate(self.phi0, min(returns, MAX_RETURNS))
 

@@ -86,7 +86,7 @@ class ChaplyginBall(State):
 
     @property
     def distance(self) -> float:
-        """The distance δ of the start from its circle."""
+        """The distance δ of ω(0) from Nᵘ, relative to |ω|."""
         return float(10.0**-self.digits)
 
     @cached_property
@@ -168,7 +168,7 @@ class ChaplyginBall(State):
         return self.map_or_reason[0]
 
     def free(self) -> list[Array]:
-        """Return θ⁺ over the same phases for 𝒟 = 0."""
+        """Return the curve θ⁺(φ) for 𝒟 = 0 at the phases of the map; empty without a map."""
         if self.map is None:
             return []
         phis = self.map.phis
@@ -193,7 +193,7 @@ class ChaplyginBall(State):
 
     def _about_sphere(self) -> Caption:
         left, last = in_digits(math.cos(self.theta)), in_digits(self.Gamma[-1])
-        verdict = "The orbit returns to its circle." if left == last else "The orbit passes to another circle."
+        verdict = "The orbit ends on its initial circle." if left == last else "The orbit passes to another circle."
         return Caption(verdict, f"Γ = {left} at the start, Γ = {last} at the end.")
 
     def _about_curve(self) -> Caption:
@@ -207,8 +207,8 @@ class ChaplyginBall(State):
         first, last = math.cos(self.theta), float(self.Gamma[-1])
         shown = in_digits(first), in_digits(last)
         if shown[0] == shown[1]:
-            return Caption("Γ returns to its initial value.", f"Γ = {shown[0]}.")
-        return Caption(f"Γ {'increases' if last > first else 'decreases'}.", f"From {shown[0]} to {shown[1]}.")
+            return Caption("Γ ends at its initial value.", f"Γ = {shown[0]}.")
+        return Caption(f"Γ is {'larger' if last > first else 'smaller'} at the end.", f"From {shown[0]} to {shown[1]}.")
 
     def quantities(self) -> Iterator[str]:
         """Yield the dimensions of the strip, its axis ξ and the distance δ."""
@@ -235,7 +235,7 @@ class ChaplyginBall(State):
 
 
 _EXACT = replace(REFERENCE, promise=1e-2 * REFERENCE.promise)
-"""The scattering map follows a motion for a time that depends on the promise, and always with the same order."""
+"""Level of the exact map.  A smaller promise lengthens the followed motion; the order is the same at all levels."""
 _MEASURES: tuple[Trial[ChaplyginBall], ...] = (
     Trial(
         Kind.MAP,

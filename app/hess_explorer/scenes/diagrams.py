@@ -79,7 +79,7 @@ class DiagramState(DiagramControls):
 
     @property
     def closed_orbit(self) -> ClosedOrbit | None:
-        """The periodic orbit; None if none is requested or found."""
+        """The periodic orbit; None if none is requested or known."""
         return None if self.branch == NONE else self.continuation.closed_orbit
 
     @property
@@ -107,7 +107,7 @@ class DiagramState(DiagramControls):
 
     @cached_property
     def reversals(self) -> SectionCrossings:
-        """The times at which the rotation reverses."""
+        """The crossings of 0 by the rotation about the vertical, at which it reverses."""
         return self.work.need(Task(reversals, self.body, self.start, self.span, self.level))
 
     @cached_property
@@ -177,7 +177,7 @@ def _flip_values(s: DiagramState, axes: Axes) -> list[tuple[float, float, str]]:
 def diagram_scene(
     state: type[S], module: str, presets: tuple[Preset, ...], section: ChartSource, ball: bool = False, **words: Any
 ) -> Scene[S]:
-    """Return the scene of a class of diagram states.
+    """Return the scene of an orbit diagram.
 
     Parameters
     ----------

@@ -278,7 +278,7 @@ class EulerPoisson(FilledState):
         return concatenate(batch.other_sheets for batch in known if batch.other_sheets is not None)
 
     def hess_curve(self) -> tuple[Array, Array]:
-        """Return the curve of the Hess manifold in the window, as x and y."""
+        """Return l and L/G of the curve r·M = 0 over the l of the window."""
         l = np.linspace(self.section.frame[0][0], self.section.frame[1][0], 241)
         return l, hess_curve(self.body, l)
 
@@ -289,7 +289,7 @@ class EulerPoisson(FilledState):
             return self.section_caption
         kept = [one for batch in self.section.known_orbits.batches for one in batch.same_side]
         return Caption(
-            "The two layers never mix." if self.away == 0.0 else "",
+            "No orbit crosses r·M = 0." if self.away == 0.0 else "",
             f"{self.density.phrase}r·M keeps its sign along {sum(kept)} of {len(kept)} orbits.",
         )
 

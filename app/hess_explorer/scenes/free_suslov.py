@@ -41,7 +41,7 @@ _LEVELS = (0.25, 0.6, 1.6)
 _ON_THE_WAY = 4
 """Number of F2 circles between the two limit circles: more would hide the orbits."""
 _ROOM_BELOW = (-1.25, 1.05)
-"""The axis of γ₁, with room for the name of the other axis."""
+"""Range of the axis of γ₁, with room at the bottom for the name of the other axis."""
 
 # The caption of the figure gives tan φ = 0.85/0.28 and 0.53/0.72.
 _ON_CIRCLE: Values = {"w1": 2.0, "w2": 1e-3, "Gamma": -0.44, "phi": 1.2526, "phi2": 0.6346}
@@ -133,7 +133,7 @@ class FreeSuslov(State):
 
     @cached_property
     def h(self) -> float:
-        """The energy.  Raises as `passage`, with messages about ω, because the energy has no control."""
+        """The energy.  Raises `InvalidParameter`, `WorkLimit`; messages name ω, because the energy has no control."""
         h = 0.5 * (self.body.I11 * self.w1**2 + self.body.I22 * self.w2**2) if self.passage.rate else 0.0
         if h == 0.0:
             raise InvalidParameter("|ω| is so small that the energy is 0 in double precision: choose a larger ω.")
@@ -189,7 +189,7 @@ class FreeSuslov(State):
 
     @cached_property
     def F2(self) -> tuple[AdditionalIntegral, float] | None:
-        """The additional integral and its value on the orbit; None if it does not exist."""
+        """The additional integral and its value on the orbit; None if none is known."""
         found = integral_of(self.body)
         return None if found is None else (found, float(found(np.array(self.omega), np.array(self.gamma))))
 
@@ -276,7 +276,7 @@ class FreeSuslov(State):
         yield f"|ω±| = {digits(points.speed)}"
         yield f"ξ = {vector(points.xi)}"
         if self.F2 is None:
-            yield "F₂: none known (known for odd k if I₁₃ = 0 or I₂₃ = 0)"
+            yield "F₂: none known (known for odd k ≤ 15 if I₁₃ = 0 or I₂₃ = 0)"
         else:
             integral, f = self.F2
             yield f"F₂, degree {integral.k} in ω: f = {digits(f)}"

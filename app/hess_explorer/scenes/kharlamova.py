@@ -134,7 +134,7 @@ class Kharlamova(State):
         "Another potential",
         tuple(POTENTIALS),
         "Hénon–Heiles",
-        doc="Potential U(γ₁, γ₂) of the last picture, in place of (b, γ). Quadratic: integrable.",
+        doc="U(γ₁, γ₂) of the picture “Potential”, in place of (b, γ). Quadratic: integrable.",
     )
     accuracy: str = accuracy_level()
 
@@ -146,7 +146,7 @@ class Kharlamova(State):
             return self
         state = replace(self, q1=self.q1 / size, q2=self.q2 / size)
         notes.append(
-            f"The start was outside the ellipse: moved to its edge, q = ({digits(state.q1)}, {digits(state.q2)})."
+            f"The start is outside the ellipse: it was moved to its edge, q = ({digits(state.q1)}, {digits(state.q2)})."
         )
         return state
 
@@ -177,7 +177,7 @@ class Kharlamova(State):
 
     @cached_property
     def samples(self) -> tuple[Orbit, Array]:
-        """The orbit, and the mirror image (m, 5) of its past."""
+        """The orbit, and the states (m, 5) of the mirror image of its past."""
         return self.work.need(Task(mechanics.sampled_orbit, self.body, self.start, self.span, self.level))
 
     @property
@@ -241,7 +241,7 @@ class Kharlamova(State):
         return pieces(boundary, kinds == kind)
 
     def path(self) -> list[Array]:
-        """Return the parabola, extended beyond the domain."""
+        """Return the parabola, extended beyond the domain; empty for a fixed point."""
         low, high = self.arc.ends
         more = 0.5 * self.arc.length
         return (

@@ -53,7 +53,7 @@ class Loxodrome(State):
     I1: float = parameter(known.I1)
     I2: float = parameter(known.I2, 1.5, doc="Middle principal moment, which must lie between I₁ and I₃.")
     I3: float = parameter(known.I3, 2.0)
-    # The pendulum does not depend on this sign.
+    # Only positive values: the pendulum does not depend on the sign of μ|r|.
     m: float = parameter(
         known.MU_R,
         0.7071,

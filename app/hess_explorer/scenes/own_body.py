@@ -45,7 +45,7 @@ from hess_mechanics.rigid_body.own_body import OwnBody, Polynomial
 
 _MOST_CROSSINGS = 2000
 _NO_WORK = 1e-10
-"""Work that is only rounding."""
+"""Work that is only round-off, relative to the largest change of the energy, at least 1."""
 _CONSTRAINED, _FREE = "(a, ω) = 0", "none"
 
 
@@ -72,7 +72,7 @@ def _velocity(symbol: str, default: float, group: Group = "State") -> Any:
 
 @dataclass(frozen=True)
 class OwnBodyState(State):
-    """A motion of the body."""
+    """A motion of a user-defined body."""
 
     U: str = formula("Potential U(γ)", "g3 - 0.5*g1", polynomial, doc="A polynomial in g1, g2, g3, like 0.5*g1^2 - g3.")
     p: str = formula(
@@ -209,7 +209,7 @@ class OwnBodyState(State):
 
     @cached_property
     def energies(self) -> tuple[Array, Array, Array] | None:
-        """Times, changes of the energy, and the work of the drive; None until the equations are compiled."""
+        """Times, changes of the energy, and work of the drive, (n,) each; None until the equations are compiled."""
         if not self.is_compiled:
             return None
         path, body = self.orbit.path, self.body
@@ -287,7 +287,7 @@ def _crossed_range(i: int) -> Any:
 
 def _no_crossing(s: OwnBodyState) -> str:
     found = _crossing_points(s)
-    return "" if found is None or len(found) else "No crossing: choose another motion, or a longer time of the exponent"
+    return "" if found is None or len(found) else "No crossing: choose another motion or a longer time of the exponent."
 
 
 def _energy_range(s: OwnBodyState) -> Range | None:
@@ -319,7 +319,7 @@ PRESETS = (
     ),
     Preset("A quartic potential", U="g1^4 + g2^4 - g3^2", I13=0.0, I23=0.0),
 )
-"""The third is a Suslov body whose rotor's speed changes periodically."""
+"""The third one is a Suslov body with a rotor whose speed changes periodically."""
 
 SCENE = Scene(
     OwnBodyState,

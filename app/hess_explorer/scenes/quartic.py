@@ -176,7 +176,7 @@ class Quartic(SectionState):
         return float(q[0]), float(q[1])
 
     def forbidden(self, axes: Axes) -> list[list[Array]]:
-        """Return the forbidden region of the section."""
+        """Return the forbidden region of the section; empty if the section is omitted."""
         reach = 4.0 * max(axes.x[1], self.body.major_semi_axis)
         return (
             []

@@ -133,7 +133,7 @@ class RotationNumber(State):
 
     @property
     def target(self) -> Fraction:
-        """The rational rotation number to find on the line; positive for f < 0, like ρ."""
+        """The rational rotation number to find on the line; for f < 0 positive, like ρ, unless the line is along f."""
         rho = Fraction(self.rational.replace("−", "-"))
         return -rho if self.line != "f" and self.f < 0.0 else rho
 

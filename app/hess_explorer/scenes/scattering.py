@@ -79,10 +79,10 @@ class ScatteringState(State):
         return free_body.limits_of_k(self.I22, self.I13, self.I23)
 
     def valid_state(self, notes: list[str]) -> ScatteringState:
-        """Return the state with a distance of at least 1e-16 if I13 I23 ≠ 0, where the start is rounded."""
+        """Return the state with a distance of at least 1e-12 if I13 I23 ≠ 0, where ω(0) is rounded; append a note."""
         if self.I13 * self.I23 == 0.0 or self.digits <= _MOST_DIGITS:
             return self
-        notes.append(f"With I₁₃I₂₃ ≠ 0 a start is known only to 1e−16: its distance was set to 1e−{_MOST_DIGITS:g}.")
+        notes.append(f"With I₁₃I₂₃ ≠ 0 rounding limits δ to at least 1e−{_MOST_DIGITS:g}: it was set to this limit.")
         return replace(self, digits=_MOST_DIGITS)
 
     @cached_property
@@ -92,7 +92,7 @@ class ScatteringState(State):
 
     @property
     def distance(self) -> float:
-        """The distance δ of the start from its circle."""
+        """The distance δ of ω(0) from the line of equilibria, relative to |ω|."""
         return float(10.0**-self.digits)
 
     @cached_property
@@ -158,7 +158,7 @@ class ScatteringState(State):
     # ---- the pictures ------------------------------------------------------------------------------------------
 
     def grid(self) -> Array:
-        """Return θ⁺ over all circles and phases."""
+        """Return θ⁺ over a grid of phases and circles θ⁻."""
         cells = _FEW_CELLS if self.is_preview else self.plan(Kind.MAP).grid(_CELLS)
         return self.work.need(Task(model.theta_plus_grid, self.map, *cells))
 

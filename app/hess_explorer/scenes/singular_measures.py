@@ -127,7 +127,7 @@ class SingularMeasures(State):
     accuracy: str = accuracy_level()
 
     def idle_values(self) -> Mapping[str, float]:
-        """Return the parameters of the patch or of the second cloud, if it is absent."""
+        """Return the parameters without effect: φ without a patch, b₃ without a second cloud."""
         return {
             **({} if self.start == "small patch" else {"angle": self.angle}),
             **({} if self.beside == "principal axis" else {"b3": self.b3}),

@@ -26,7 +26,7 @@ class Study(State):
     base : State
         State of the other scene.
     trials : tuple of Trial
-        Its computations.
+        Computations of that scene.
     """
 
     base: State
@@ -34,7 +34,7 @@ class Study(State):
 
     @cached_property
     def costs(self) -> Costs:
-        """Time and error of all computations of the state."""
+        """Time and error of all computations that apply to the state."""
         plain = bare_state(self.base)
         return Costs(self.work, plain, tuple(trial for trial in self.trials if trial.condition(plain)))
 
@@ -76,7 +76,13 @@ def _precision(state: Study) -> Precision:
 
 @dataclass(frozen=True, repr=False)
 class SpeedAccuracy(Scene[Study]):
-    """The scene "Speed and accuracy" of another scene, with the same parameters."""
+    """The scene "Speed and accuracy" of another scene, with the same parameters.
+
+    Attributes
+    ----------
+    other : Scene
+        The other scene.
+    """
 
     other: Scene[Any] = field(kw_only=True)
 
@@ -96,7 +102,7 @@ class SpeedAccuracy(Scene[Study]):
         return self.other.specs
 
     def visible_trials(self, state: Study) -> Iterator[tuple[Trial[Any], State]]:
-        """Return all computations of the other scene."""
+        """Return the computations of the other scene that apply to the state, each with the state to compute."""
         return ((trial, state.costs.base) for trial in state.costs.trials)
 
     def of(self, values: Values, visible: Collection[str] = (), is_preview: bool = False) -> Study:

@@ -125,7 +125,7 @@ class Suslov(FilledState):
     window: str = points("The window of the section", 2, *_BOUNDS)
 
     def valid_state(self, notes: list[str]) -> Suslov:
-        """Return a state with a valid window, at least one start, and an energy that reaches the plane."""
+        """Return a state with a valid window, a start, and an energy that reaches the section; append notes."""
         state = super().valid_state(notes)
         bottom = self.poincare.lowest_energy + math.hypot(self.b1, self.b2, self.b3)
         if self.h <= bottom * (1.0 + 1e-9):

@@ -140,7 +140,7 @@ class SuslovHess(State):
 
     @cached_property
     def half_width(self) -> float:
-        """Half width of the (ω1, ω2)-plane, a power of 2 with room for the largest ring of this h."""
+        """Half width of the (ω1, ω2)-plane: room for the largest ring of the diagram, halved while that of h fits."""
         largest = math.sqrt(2.0 * (diagram.window(self.h).x[1] + 1.0))
         halvings = math.floor(math.log2(largest / math.sqrt(2.0 * (self.h + 1.0))))
         ring = 1.02 * math.hypot(1.0, self.body.a) * largest * 0.5**halvings
@@ -164,12 +164,12 @@ class SuslovHess(State):
 
     @cached_property
     def cycles(self) -> tuple[Track, Track] | None:
-        """The stable and the unstable limit cycle, if they exist."""
+        """The stable and the unstable limit cycle; None without limit cycles."""
         return limit_cycles(self.work, self.body, self.map, self.level, self.half_width)
 
     @cached_property
     def iterates(self) -> Array | None:
-        """φ0 and its iterates under the circle map, up to the end of the orbit."""
+        """φ0 and its iterates under the circle map, up to the end of the orbit; None on the separatrix."""
         if self.map is None:
             return None
         returns = math.ceil(self.track.orbit.times[-1] / self.map.period)
@@ -204,7 +204,7 @@ class SuslovHess(State):
 
     @cached_property
     def proof(self) -> ProvedStatement | None:
-        """The proved statement on this torus; None until known and during a drag."""
+        """The proved statement on this torus; None until known, during a drag, and on the separatrix."""
         if self.is_preview or self.map is None:
             return None
         if not has_flint():

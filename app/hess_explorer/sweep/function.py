@@ -58,12 +58,28 @@ def _number(name: str, title: str) -> Number:
 def computation_of(
     function: Function, over: Mapping[str, Axis], fixed: Mapping[str, float], accuracy: str
 ) -> tuple[Computation, str]:
-    """Return a user's function as a computation, and its source code.
+    """Return a user's function as a computation, and its source code, or its name if the source is not available.
 
     The parameters of the computation are the swept and fixed ones, and those with a number as default.  The function
-    is called at one cell, or at a few until one has a result, to learn the names of its numbers.
+    is called at one cell, or at up to 16 until one has a result, to learn the names of its numbers.
 
-    Raises `InvalidParameter` if it fails at all of these cells, and `WorkLimit` if the sweep has too many cells.
+    Parameters
+    ----------
+    function : callable
+        Takes numbers by name, and returns a number or a named tuple of numbers.
+    over : mapping of str
+        Values of the swept parameters, see `Axis`.
+    fixed : mapping of str to float
+        Values of fixed parameters.
+    accuracy : str
+        Name of the level that a parameter `accuracy` of the function receives.
+
+    Raises
+    ------
+    InvalidParameter
+        If the function fails at all cells that are tried, or an axis or a fixed value is not allowed.
+    WorkLimit
+        If the sweep has too many cells.
     """
     inner = function.func if isinstance(function, partial) else function
     name = str(getattr(inner, "__name__", ""))
@@ -89,7 +105,7 @@ def computation_of(
 
 
 def _fields(what: Computation, plan: SweepPlan) -> tuple[str, ...]:
-    """Return the names of the numbers that a function returns at the first cell with a result."""
+    """Return the names of the numbers that a function returns at the first cell with a result, of up to 16."""
     failed: Exception | None = None
     for cell in np.unique(np.linspace(0, plan.cells - 1, _TRIALS).astype(int)):
         columns = plan.columns(np.array([cell]))

@@ -54,7 +54,7 @@ def compute(piece: SweepPlan) -> PieceResult:
 
 
 def serialize(plan: SweepPlan) -> bytes:
-    """Serialize a plan without its axes, including functions that are defined in a notebook.
+    """Serialize a plan without its axes and source, including functions that are defined in a notebook.
 
     Raises `InvalidParameter` if the computation cannot be pickled.
     """
@@ -68,8 +68,8 @@ def serialize(plan: SweepPlan) -> bytes:
     # Serialization runs code of the user's objects, which may raise any exception.
     except Exception as error:
         raise InvalidParameter(
-            f"{what.key} cannot be sent to other processes ({error}): omit workers, or avoid objects that cannot be "
-            "pickled, such as open files and locks."
+            f"{what.key} cannot be sent to other processes ({error}): omit workers and scheduler, or avoid objects "
+            "that cannot be pickled, such as open files and locks."
         ) from error
 
 

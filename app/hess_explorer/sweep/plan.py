@@ -86,13 +86,13 @@ class SweepPlan:
         plan = cls(what, tuple(numbers), accuracy, axes, others, source)
         if plan.cells > MAX_CELLS:
             raise WorkLimit(
-                f"The sweep has {plan.cells} cells, but at most {MAX_CELLS} are allowed: sweep smaller ranges."
+                f"The sweep has {plan.cells} cells, but at most {MAX_CELLS} are allowed: choose fewer values."
             )
         return plan
 
     @property
     def variables(self) -> dict[str, str]:
-        """The name of the number behind each variable of the Dataset."""
+        """The name of the number in each variable of the Dataset, by the name of the variable."""
         taken = (*self.axes, "status")
         return {f"{name.replace('-', '_')}{'_value' if name in taken else ''}": name for name in self.numbers}
 
@@ -107,7 +107,7 @@ class SweepPlan:
         return math.prod(self.shape)
 
     def part(self, region: Region) -> SweepPlan:
-        """Return the plan of the cells in a region."""
+        """Return the plan of the cells in a region, which has a slice for each axis."""
         return replace(self, axes={name: values[region[name]] for name, values in self.axes.items()})
 
     def columns(self, cells: NDArray[np.int64] | None = None) -> dict[str, Array]:

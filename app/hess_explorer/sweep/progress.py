@@ -19,9 +19,9 @@ class Progress(NamedTuple):
     cells : int
         Total number of cells.
     seconds : float
-        Wall time so far, in seconds.
+        Wall time of this run so far, in seconds.
     remaining : float or None
-        Estimated remaining time in seconds; None until a cell is finished.
+        Estimated remaining time in seconds; None until this run has finished a cell.
     """
 
     done: int
@@ -31,13 +31,23 @@ class Progress(NamedTuple):
 
 
 _EVERY = 30.0
-"""Seconds between two bars in a log."""
+"""Seconds between two progress bars in a log."""
 Report = Callable[[Progress], None]
 
 
 @contextmanager
 def progress_report(progress: bool | Report | None, cells: int, before: int) -> Iterator[Callable[[int], object]]:
-    """Yield a function that adds a number of finished cells to the progress bar, or reports them to `progress`."""
+    """Yield a function that adds a number of finished cells to the progress bar, or reports the sum to `progress`.
+
+    Parameters
+    ----------
+    progress : bool, callable or None
+        True for a progress bar; a function is called with a `Progress` at once and after each addition.
+    cells : int
+        Total number of cells.
+    before : int
+        Number of cells that are already finished.
+    """
     if not callable(progress):
         from tqdm.auto import tqdm
 

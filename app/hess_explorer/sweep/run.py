@@ -48,7 +48,8 @@ def sweep(
         Name of a computation of the catalogue, such as "circle-map" or "lyapunov suslov", which defines the
         parameters, their bounds and defaults; or a computation of your own system; or a function.  A function takes
         numbers by name and returns a number or a named tuple of numbers, whose fields become variables; its parameter
-        `accuracy`, if any, receives the level.  It is called once before the sweep begins.
+        `accuracy`, if any, receives the level.  Before the sweep begins it is called at
+        one cell, or at up to 16 until one has a result.
     over : mapping of str
         The swept parameters: (low, high, count) for evenly spaced values with both ends, or a list of values.
     numbers : sequence of str, optional
@@ -60,14 +61,14 @@ def sweep(
         Folder of a Zarr group that stores every finished piece.  The same call resumes an interrupted sweep.
         Simultaneous runs are safe but repeat work.
     workers : None, "all" or int
-        None computes in this thread, an integer in that many new processes, "all" in one process per core.  A script
-        must then call `sweep` below ``if __name__ == "__main__":``.
+        None or 1 computes in this thread, an integer up to 1000 in that many new processes, "all" in one process per
+        core.  A script must then call `sweep` below ``if __name__ == "__main__":``.  Not used with a `scheduler`.
     scheduler : str or distributed.Client, optional
         Address of a Dask scheduler, "tcp://…" or "tls://…", or a Client.  Its workers need the same version of this
         package.
     progress : bool or callable, optional
         True shows a progress bar, which is updated every 30 seconds if stderr is not a terminal.  A function is called
-        with a `Progress` after each piece.
+        with a `Progress` at the beginning and after each piece.
     **fixed : float
         Values of other parameters that differ from their defaults.
 
@@ -162,7 +163,8 @@ def explain(result: xr.Dataset, **cell: float) -> str:
     Raises
     ------
     InvalidParameter
-        If the coordinates do not match the sweep, or if a cell of your own function has not failed.
+        If the names of the coordinates are not those of the swept parameters, the computation is not in the catalogue,
+        or a cell of your own function has not failed.
 
     Examples
     --------

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 _MOST_FAILURES = 1000
 _DECODING_ERRORS = (OSError, ValueError, RuntimeError, KeyError)
-"""Errors of the decoder for an incomplete file."""
+"""Errors that reading an incomplete or foreign file raises."""
 
 
 def require_libraries() -> None:
@@ -136,7 +136,7 @@ def missing(place: Path | MemoryStore, plan: SweepPlan) -> list[Region]:
 
 
 def _is_finished(part: xr.Dataset, plan: SweepPlan) -> bool:
-    """Return whether a piece is readable, each cell has a status, and each cell with a value a finite number."""
+    """Return True if a piece is readable, each cell has a status, and each cell with a value has a finite number."""
     try:
         status = part.status.values
         if not status.all():
@@ -149,7 +149,7 @@ def _is_finished(part: xr.Dataset, plan: SweepPlan) -> bool:
 
 
 def write(place: Path | MemoryStore, region: Region, done: PieceResult) -> None:
-    """Save a piece, its status last.  Raises `StoreError`."""
+    """Save a piece, its status last.  Raises `StoreError` if the store cannot be written."""
     import xarray as xr
     import zarr
 

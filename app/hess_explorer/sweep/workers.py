@@ -30,12 +30,16 @@ def dask_setup(worker: Worker) -> None:
 
 
 def size(client: Client | None) -> int:
-    """Return the number of workers of a cluster; 1 for this thread."""
+    """Return the number of worker threads of a cluster, at least 1; 1 without a cluster."""
     return 1 if client is None else max(1, sum(client.nthreads().values()))
 
 
 def results(client: Client | None, plan: SweepPlan, regions: Iterable[Region]) -> Generator[tuple[Region, PieceResult]]:
-    """Yield the results of the pieces, in any order.  Raises `WorkersLost` if some pieces failed."""
+    """Yield the regions and results of the pieces, in any order.
+
+    Raises `WorkersLost` at once if a worker has another version, and at the end if some pieces failed;
+    `InvalidParameter` if the plan cannot be pickled.
+    """
     if client is None:
         for region in regions:
             yield region, compute(plan.part(region))
@@ -72,9 +76,21 @@ def results(client: Client | None, plan: SweepPlan, regions: Iterable[Region]) -
 
 @contextmanager
 def connection(workers: str | int | None, scheduler: str | Client | None) -> Iterator[Client | None]:
-    """Yield a client of the workers; None for this thread.
+    """Yield a client of the workers; None to compute in this thread.
 
-    Raises `WorkersLost` if no worker responds, `InvalidParameter` if the workers cannot be used.
+    Parameters
+    ----------
+    workers : None, "all" or int
+        Number of local processes, up to 1000; None or 1 for this thread, "all" for one per core.
+    scheduler : str or Client, optional
+        Address of a Dask scheduler, or a Client, which is yielded itself; `workers` is then not used.
+
+    Raises
+    ------
+    WorkersLost
+        If no worker responds.
+    InvalidParameter
+        If the number of workers is not allowed, or the workers cannot be used.
     """
     # Without a number, Dask starts one worker for each core of this process.
     count = None if workers == "all" else as_integer("workers", workers or 1, 1, 1000)

@@ -29,7 +29,7 @@ _PAPER = 0.6
 _TYPE = 0.75
 """Points per pixel of the page for the offset of labels."""
 _AXES, _LABEL = 45.0, 0.038
-"""Points that the axes of a figure take, and size of a label relative to the frame, for the room of "tags.py"."""
+"""Points of the width outside the frame; largest font size of a label as a share of the frame, see "tags.py"."""
 _DOT = 0.6
 """Scale of dots in figures, smaller than on the page as no pixels need filling."""
 _MOST_VECTORS = 5000
@@ -51,13 +51,13 @@ def overlay(
     title: str = "",
     colour: Colour = unchanged,
 ) -> hv.Overlay:
-    """Return the layers of a plot as HoloViews elements, with options for all loaded backends.
+    """Return a plot as an overlay of HoloViews elements, one per layer with data, with options for all loaded backends.
 
     Parameters
     ----------
     plot : Plot
         The plot.
-    columns : mapping of str
+    columns : mapping of str to mapping
         Columns by data source; layers without columns are omitted.
     axes : Axes
         Ranges of the axes.
@@ -280,7 +280,7 @@ def _shift(style: Style) -> Hook:
 
 
 class _Kind(NamedTuple):
-    """The element of a layer's columns, and its options for each backend."""
+    """Functions from a layer's columns to an element, and from its style to the options of each backend."""
 
     element: Callable[..., hv.Element]
     bokeh: Callable[[Style], Options]

@@ -36,7 +36,13 @@ def rectangle(x: Range, y: Range) -> Array:
 
 @dataclass(frozen=True)
 class Axes:
-    """The current axes of a plot; while a slider is held they may belong to an earlier state."""
+    """The current axes of a plot; while a slider is held they may belong to an earlier state.
+
+    Attributes
+    ----------
+    x, y : (float, float)
+        Ranges of the horizontal and the vertical axis.
+    """
 
     x: Range
     y: Range
@@ -49,11 +55,11 @@ class CellGrid:
     Attributes
     ----------
     cells : array (m, n)
-        The numbers; each row has one y.
+        The numbers; each row has one y, the lowest first.  NaN is transparent.
     x, y : (float, float)
         Sides of the rectangle.
     ends : (float, float) or None
-        Numbers of the first and the last colour, if they depend on the state.
+        Numbers of the first and the last colour, if they depend on the state; None for those of the layer.
     """
 
     cells: Array
@@ -65,7 +71,15 @@ class CellGrid:
 def in_window(
     cells: Callable[[S], Array | None], window: Callable[[S], Sequence[tuple[float, float]]]
 ) -> Callable[[S], CellGrid | None]:
-    """Return a function of the state: the grid of cells (m, n) that fill a window, or None without cells."""
+    """Return a function of the state that returns the grid of cells over a window, or None without cells.
+
+    Parameters
+    ----------
+    cells : callable
+        `cells(state)` returns the numbers (m, n), the lowest row first, or None.
+    window : callable
+        `window(state)` returns the lower left and the upper right corner of the window.
+    """
 
     def grid(state: S) -> CellGrid | None:
         found = cells(state)
@@ -84,11 +98,12 @@ class Sign:
     label : str
         Text of the entry.
     kind : str
-        Kind of sign: "line", "dot", "dot small", "dot diamond" or "box".
+        CSS classes of the sign: "line", "dot" or "box", and optionally "small", "diamond", "inverted_triangle" or
+        "rho".
     style : str
         CSS style of the sign.
     least : float or None
-        For layers of cells: the sign stands for numbers in [least, least + 1).
+        For layers of cells: the sign stands for numbers in [least, least + 1); None for all numbers.
     """
 
     label: str
@@ -123,12 +138,14 @@ class Layer(Generic[S]):
         `data(state)` returns the columns; empty for no data.
     data_in_axes : callable or None
         `data_in_axes(state, axes)` returns the columns if they depend on the axes.
+    track : str or None
+        Name of the track of the scene that the layer draws; None for data of its own.
     is_overlay : bool
         True if the layer changes with every state; it then lies above axes and background, which are not repainted.
     legend : tuple of Sign
         Entries in the legend of the scene.
     tag : str
-        Label in the picture, see "tags.py".
+        Label in the picture, see "tags.py"; empty for none.
     """
 
     name: str
@@ -151,7 +168,7 @@ AxesData = Callable[[S, Axes], Any] | None
 
 
 def _words(name: str, size: int, **style: Any) -> Layer[Any]:
-    """Return a layer of words, by default centred at their places."""
+    """Return a layer of words, by default centred at their points."""
     look = {"text_color": theme.INK, "text_font_size": f"{size}px", "text_align": "center", "text_baseline": "middle"}
     return Layer(name, "text", ("x", "y", "text"), {**look, **style})
 
@@ -171,7 +188,7 @@ def compose(get: Callable[[S], T | None], make: Callable[[T], U]) -> Callable[[S
 
 
 def crop(points: Positions, window: Positions) -> list[tuple[float, float]]:
-    """Return the points within a window, given by two corners."""
+    """Return the points within a window, edges included; the window is its lower left and its upper right corner."""
     (x0, y0), (x1, y1) = window
     return [(x, y) for x, y in points if x0 <= x <= x1 and y0 <= y <= y1]
 
@@ -281,7 +298,7 @@ def region(
     is_overlay: bool = False,
     data_in_axes: AxesData[S] = None,
 ) -> Layer[S]:
-    """Return a layer of filled regions, each with an outer closed curve (n, 2) and the curves of its holes."""
+    """Return a layer of filled regions; `data(state)` returns `Regions`, empty for none."""
     layer: Layer[S] = Layer(
         name,
         "multi_polygons",
@@ -349,7 +366,10 @@ def dots(
     columns: tuple[str, str] = ("x", "y"),
     track: str | None = None,
 ) -> Layer[S]:
-    """Return a layer of thousands of points, drawn by the page itself; `data(state)` returns (x, y) or None."""
+    """Return a layer of thousands of points, drawn by the page itself.
+
+    `data(state)` returns (x, y) or None; without it the layer draws columns of a track.
+    """
     layer: Layer[S] = Layer(
         name,
         "dots",
@@ -369,7 +389,10 @@ def arrows(
     size: float = 10.0,
     alpha: float = 1.0,
 ) -> Layer[S]:
-    """Return a layer of triangles along a motion; `data(state)` returns (x, y, angle) or None, angle 0 points up."""
+    """Return a layer of triangles along a motion; `data(state)` returns (x, y, angle) or None.
+
+    The angle is in radians, counterclockwise; a triangle with angle 0 points up.
+    """
     layer: Layer[S] = points(
         name, data, color=color, size=size, marker="triangle", alpha=alpha, columns=("x", "y", "angle")
     )
@@ -388,7 +411,7 @@ def ring(
     columns: tuple[str, str] = ("x", "y"),
     data_in_axes: AxesData[S] = None,
 ) -> Layer[S]:
-    """Return a layer of rings at points; `data(state)` returns [(x, y), …]."""
+    """Return a layer of rings at points; `data(state)` returns [(x, y), …], empty for none."""
     layer: Layer[S] = points(
         name, color=color, size=size, hollow=True, edge_width=width, label=label, tag=tag, columns=columns
     )
@@ -406,7 +429,7 @@ def target(
     size: float = 21.0,
     columns: tuple[str, str] = ("x", "y"),
 ) -> Layers[S]:
-    """Return the layers of a ring that is visible on any colour: black on white."""
+    """Return the layers of rings that are visible on any colour, black on white; `data(state)` as for `ring`."""
     return (
         ring(name, data, color="white", size=size, width=6.0, columns=columns),
         ring(f"{name}-too", data, color="black", size=size, width=2.5, columns=columns),
@@ -438,11 +461,11 @@ def image(
     palette : str or tuple of str
         Name of a palette, or its colours.
     low, high : float
-        Numbers of the first and the last colour.
+        Numbers of the first and the last colour, unless the cells have `ends`.
     smooth : bool
         True to interpolate between the centres of cells, for continuous functions.
     cyclic : bool
-        True to interpolate with `low` and `high` identified.
+        True to interpolate as for `smooth`, with `low` and `high` identified.
     kinds : bool
         True if numbers are labels, with smooth borders between them.
     fine : bool
@@ -477,7 +500,7 @@ _PAPER = {"background_fill_color": theme.PAPER, "background_fill_alpha": 0.75}
 
 
 def levels(name: str, data: Callable[[S], Sequence[float]]) -> Layer[S]:
-    """Return a layer of dotted horizontal lines at given heights."""
+    """Return a layer of dotted horizontal lines across the frame; `data(state)` returns their heights."""
 
     def across(state: S, axes: Axes) -> list[Array]:
         low, high = axes.x
@@ -496,7 +519,10 @@ def names(
     on_paper: bool = False,
     data_in_axes: AxesData[S] = None,
 ) -> Layer[S]:
-    """Return a layer of words at or `above` places; `data(state)` returns [(x, y, word), …]."""
+    """Return a layer of words; `data(state)` returns [(x, y, word), …].
+
+    A word is centred at its point, or stands `above` pixels above it.
+    """
     paper = _PAPER if on_paper else {}
     layer: Layer[S] = _words(name, size, text_baseline="bottom" if above else "middle", y_offset=-above, **paper)
     return _layer(layer, lambda value: _rows(layer.columns, value), data, data_in_axes)
@@ -510,7 +536,7 @@ def label(layer: Layer[S]) -> Layer[S]:
 
 
 def text(name: str, data: Callable[[S], str]) -> Layer[S]:
-    """Return a layer with a word in the lower right corner of the frame."""
+    """Return a layer with a text in the lower right corner of the frame; `data(state)` returns it, "" for none."""
 
     def there(state: S, axes: Axes) -> Columns:
         said = data(state)

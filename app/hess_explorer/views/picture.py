@@ -40,7 +40,7 @@ class Picture(ABC, Generic[S]):
     on_box : callable, optional
         `on_box(state, corners)` returns the parameter values that a box selection sets.
     on_hover : callable, optional
-        `on_hover(state, x, y)` returns the tooltip at a point; it raises `ModelError`.
+        `on_hover(state, x, y)` returns the tooltip at a point, empty for none; it may raise `ModelError`.
     signs : tuple of Sign
         Legend entries in addition to those of the layers.
     source_pictures : tuple of str
@@ -112,12 +112,12 @@ class Picture(ABC, Generic[S]):
 
     @property
     def first_axes(self) -> Axes | None:
-        """The axes before the first state."""
+        """The axes before the first state; None for a picture without axes."""
         return None
 
     @property
     def gestures(self) -> str:
-        """The mouse gestures that set values: "drag", "box", "drag box", "click" or none."""
+        """The mouse gestures that set values: "drag", "box", "drag box" or "click"; empty without `on_click`."""
         if self.on_click is None:
             return ""
         return " ".join(["drag"] * bool(self.on_drag) + ["box"] * (self.on_box is not None)) or "click"
@@ -132,7 +132,7 @@ class Picture(ABC, Generic[S]):
         return {"name": self.name, "kind": self.kind, "hands": self.gestures, "starts": self.starts}
 
     def ranges(self, state: S, held: Axes | None) -> Axes | None:
-        """Return the axes that fit a state, with the current axes `held` as fallback."""
+        """Return the axes that fit a state; by default the current axes `held`."""
         return held
 
     @abstractmethod

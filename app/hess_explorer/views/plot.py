@@ -21,14 +21,14 @@ Ticks = Sequence[tuple[float, str]]
 
 @dataclass(frozen=True, kw_only=True)
 class Plot(Picture[S]):
-    """A square plot; fields of `Picture` come first.
+    """A square plot, with these fields in addition to those of `Picture`.
 
     Parameters
     ----------
     axes : tuple of str or callable
         Names of the axes, or a function of the state.
     x, y : (float, float) or callable
-        Ranges of the axes, or functions of the state; None keeps the current range.
+        Ranges of the axes, or functions of the state; a function that returns None keeps the current range.
     layers : sequence of Layer
         Layers from the back to the front, below the moving point and the message.
     message : callable, optional
@@ -36,7 +36,7 @@ class Plot(Picture[S]):
     dot : tuple of str, optional
         The two columns of "orbit" that the moving point follows.
     dots : mapping of str to tuple, optional
-        Names of further layers that follow two columns of "orbit".
+        The two columns of "orbit" that further layers follow, by name of the layer.
     point : Layer
         Style of the moving point, and its legend entry.
     ticks : tuple, optional
@@ -48,7 +48,7 @@ class Plot(Picture[S]):
     first : Axes, optional
         Axes before the first state, if they depend on the state.
     x_ticks : sequence of float, optional
-        Positions of the ticks on the horizontal axis.
+        Positions of the ticks on the horizontal axis; ignored if `ticks` is given.
     y_tick_count : int, optional
         Desired number of labels on the vertical axis.
     """
@@ -92,7 +92,7 @@ class Plot(Picture[S]):
 
     @property
     def handle(self) -> Layer[S] | None:
-        """The layer whose point a drag moves."""
+        """The layer whose point a drag moves; None if a drag moves no point."""
         return next((layer for layer in self.layers if layer.name == self.on_drag), None)
 
     @property
@@ -154,7 +154,7 @@ class Plot(Picture[S]):
         return f"data-{layer.track}" if layer.track else f"{self.name}-{layer.name}"
 
     def ranges(self, state: S, held: Axes | None) -> Axes:
-        """Return the axes that fit a state, with the current axes `held` as fallback."""
+        """Return the axes that fit a state; a range that is not known yet is taken from the current axes `held`."""
         assert held is not None
         x, y = self.x(state) if callable(self.x) else self.x, self.y(state) if callable(self.y) else self.y
         return Axes(x or held.x, y or held.y)
@@ -164,7 +164,7 @@ class Plot(Picture[S]):
         return {self.source_of(layer): layer.data(state) for layer in self.layers if layer.data is not None}
 
     def data_in_axes(self, state: S, axes: Axes | None, drawn: Sources) -> Sources:
-        """Return the columns that depend on the axes, by data source."""
+        """Return the columns that depend on the axes, labels and message included, by data source."""
         assert axes is not None
         found = {
             self.source_of(layer): layer.data_in_axes(state, axes)

@@ -80,7 +80,8 @@ def mean(sums_of_grid, x, y, half_width, half_height):
 def best_label(grid, region, places, half_width, half_height, edge, pull):
     """Return (cost, covered, x, y) of the best label about one of the places (2, n), inside the cells of a region.
 
-    The cost is infinite outside the frame without its edge, and outside the region.
+    `covered` is the mean of the grid under the label.  The cost is infinite if no label fits into the region and into
+    the frame without its edge.
     """
     total, of_region, found = sums(grid), sums(region), (math.inf, 0.0, 0.0, 0.0)
     for k in range(places.shape[1]):

@@ -23,13 +23,13 @@ _LETTER, _LINE = 0.027, 0.068
 _PIXEL = 1.0 / 180.0
 """A pixel of a marker in the smallest frame with labels."""
 _GAP = 0.012
-"""Distance between a label and what it names."""
+"""Distance between a label and its curve or point."""
 _SAMPLES = 800
-"""Points by which a curve or a cloud of dots covers the grid."""
+"""Number of points by which a curve or a cloud of dots covers the grid."""
 _ANCHORS = 90
-"""Points of a curve that are tried."""
+"""Largest number of points of a curve next to which a label is tried."""
 _FULL = 0.22
-"""A label would hide too much if what is drawn covers this part of it."""
+"""Largest covered share of a label: beyond it the label would hide too much."""
 _PULL = 0.08
 """Weight of the distance from the upper right corner: few labels jump while a slider moves."""
 _DOTS = 0.25
@@ -44,7 +44,9 @@ _DIRECTIONS = np.array([(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, 
 def label_places(
     layers: Sequence[Layer[Any]], columns: Sequence[Columns], axes: Axes, log: str
 ) -> Mapping[str, Columns]:
-    """Return the columns of the label of each layer with a tag, by the layer's name; empty without a free place.
+    """Return the columns of the label of each layer with a tag, by the layer's name.
+
+    The columns are empty for a layer without data, and if there is no free place.
 
     Parameters
     ----------
@@ -97,7 +99,7 @@ class _Frame:
         self._extent = high - self._low
 
     def to(self, x: Any, y: Any) -> Array:
-        """Convert points to fractions (2, n) of the frame, at most `_SAMPLES`, without those that have no logarithm."""
+        """Convert points to fractions (2, n) of the frame: at most `_SAMPLES` of them, all finite."""
         found = np.array([np.asarray(side)[:: len(side) // _SAMPLES + 1] for side in (x, y)], float)
         for i in np.flatnonzero(self._log):
             with np.errstate(divide="ignore", invalid="ignore"):

@@ -13,14 +13,17 @@ from hess_mechanics.parameters import plain
 
 
 def digits(value: float, count: int = 4) -> str:
-    """Return a number with up to `count` significant digits, with a true minus sign; ∞ beyond double range."""
+    """Return a number with up to `count` significant digits and a true minus sign; infinities as ∞ and −∞."""
     if math.isinf(value):
         return "∞" if value > 0 else "−∞"
     return plain(value, count).replace("-", "−")
 
 
 def with_error(value: float, error: float) -> str:
-    """Return "value ± error" with two significant digits of the error and the same decimals of the value."""
+    """Return "value ± error": an error in [1e-8, 1) with two significant digits, and the value with as many decimals.
+
+    For any other error the value has up to three significant digits and the error up to two.
+    """
     places = 1 - math.floor(math.log10(error)) if 0.0 < error < 1.0 else 0
     if not 0 < places <= 9:
         return f"{digits(value, 3)} ± {digits(error, 2)}"
@@ -29,19 +32,19 @@ def with_error(value: float, error: float) -> str:
 
 
 def range_text(low: float, high: float, count: int = 4) -> str:
-    """Return "from … to …", or "= …" if both numbers agree to `count` digits."""
+    """Return "from … to …", or "= …" if both numbers agree to `count` significant digits."""
     first, last = digits(low, count), digits(high, count)
     return f"= {first}" if first == last else f"from {first} to {last}"
 
 
 def variation_text(values: Array) -> str:
-    """Return "constant at …" or "between … and …" for values (n,)."""
+    """Return "between … and …" for values (n,), or "constant at …" if they agree to four significant digits."""
     low, high = digits(float(values.min())), digits(float(values.max()))
     return f"constant at {low}" if low == high else f"between {low} and {high}"
 
 
 def conjugates(value: complex) -> str:
-    """Format a complex number: the real part if it is real, otherwise the conjugate pair as a ± bi."""
+    """Return a real number as text, or the pair of a complex number and its conjugate as "a ± bi"."""
     return digits(value.real) if not value.imag else f"{digits(value.real)} ± {digits(abs(value.imag))}i"
 
 

@@ -40,7 +40,7 @@ LEVELS = {"draft": "#E69F00", "standard": "#8A63B8", "precise": "#9A6B2F", "refe
 INTEGRALS = ("#CC6677", "#999933", "#6B7FD7", "#808080")
 CHANGED = "#E0245E"
 BASINS = ("#4FB0E5", "#E69F00", "#8517FA", "#D9D264", "#CB3B0D")
-"""Basins of attractors, on a light page and on a dark one; also the colour-blind tell them apart."""
+"""Colours of basins, for light and dark pages; colour-blind readers can distinguish them."""
 CHOSEN = ("#790167", "#15503F", "#AB0FFE", "#383800", "#A48CAE", "#AB5D34", "#310FA9", "#041F09")
 """Chosen orbits in the order of their starts; distinct also for the colour-blind, and from `ORBIT` and `UNSTABLE`."""
 DASHES = {"draft": "dotted", "standard": "solid", "precise": "dashed", "reference": "dotdash"}
@@ -79,7 +79,7 @@ def gradient(scale: tuple[str, ...]) -> str:
 
 
 def to_css(style: str) -> str:
-    """Replace the colours of a CSS style by variables of the page's theme."""
+    """Replace the theme's colours in a CSS style by CSS variables; other colours stay unchanged."""
 
     def variable(match: re.Match[str]) -> str:
         colour, opacity = match[0][:7].upper(), match[0][7:]

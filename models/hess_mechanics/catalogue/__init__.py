@@ -1,8 +1,8 @@
 """The catalogue: every system and every computation, declared once.
 
-Commands, sweeps, charts, the trade of speed against accuracy and the documentation read it.  What applies to every
-system with a motion is declared in `of_motions`, to every system with a section in `of_sections`, and what belongs to
-one problem in `of_problems`.
+Commands, sweeps, charts, the trade-off between speed and accuracy and the documentation read it.  Computations of every
+system with a motion are declared in `of_motions`, those of every system with a section in `of_sections`, and those of a
+single problem in `of_problems`.
 
 >>> from hess_mechanics.catalogue import find
 >>> find("circle-map").compute({"h": 1.5, "f": 0.6, "a": 0.5}).kind
@@ -41,7 +41,7 @@ def motions() -> Mapping[str, Motions]:
     Returns
     -------
     mapping of str to Motions
-        The motions.
+        The motions, by their own names: "suslov" and "suslov-section", for example.
     """
     result = {name: state_motions(system) for name, system in systems().items()}
     result |= {one.name: one for one in declarations("SECTION") if isinstance(one, Motions)}
@@ -58,12 +58,12 @@ def computations_of(system: System | Motions) -> Mapping[str, Computation]:
     Parameters
     ----------
     system : System or Motions
-        The system, or some of its motions.
+        The system, or only its motions from any state or from a section.
 
     Returns
     -------
     mapping of str to Computation
-        The computations, by name and system.
+        The computations by name and system, such as "orbit suslov"; none of a section if the system has no default one.
     """
     both = [system] if isinstance(system, Motions) else [state_motions(system), section_of(system)]
     return {one.key: one for of in both if of is not None for one in _of(of)}
@@ -107,7 +107,7 @@ def find(key: str) -> Computation:
     Raises
     ------
     InvalidParameter
-        If there is no such computation; the message lists those with similar names.
+        If there is no such computation; the message lists those with similar names, or else all names without system.
     """
     every = catalogue()
     if isinstance(key, str) and key in every:

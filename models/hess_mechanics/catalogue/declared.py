@@ -1,4 +1,4 @@
-"""A computation as data, for commands, sweeps, charts, the documentation and the trade of speed against accuracy."""
+"""Computations as data, for commands, sweeps, charts, the documentation, and measured times and errors of levels."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def _read(reader: Reader, result: Any) -> float:
 
 @dataclass(frozen=True)
 class Number:
-    """A number of a result, which sweeps and charts take.
+    """A number that sweeps and charts read from a result.
 
     Parameters
     ----------
@@ -62,11 +62,11 @@ class Number:
     unit : str, default "1"
         Unit; "1" for a number without one.
     error_reader : str or callable, optional
-        The same for the estimated error.  By default there is no estimate.
+        Likewise for the estimated error.  By default there is no estimate.
     turn : float, default 0.0
         Period of the values, for example 1 for rotation numbers; 0 if they are not periodic.
-    categories : mapping of int to str
-        Values that stand for categories, with their names.
+    categories : mapping of int to str, optional
+        Names of the categories for which the values stand; empty for an ordinary number.
     """
 
     symbol: str
@@ -98,17 +98,17 @@ class Number:
         return _read(self.reader, result)
 
     def error(self, result: Any) -> float:
-        """Return the estimated error of the number.
+        """Return the estimated error of this number for a result.
 
         Parameters
         ----------
         result : object
-            The result.
+            Result of the computation.
 
         Returns
         -------
         float
-            The error; NaN without an estimate.
+            The error, in `unit`; NaN if there is no estimate.
         """
         return math.nan if self.error_reader is None else _read(self.error_reader, result)
 
@@ -147,9 +147,9 @@ def real(name: str, symbol: str, default: float, low: float, high: float, doc: s
     default : float
         Default value.
     low, high : float
-        Smallest and largest value.
+        Smallest and largest value allowed, also the range of a slider.
     doc : str
-        Meaning, in a few words.
+        Meaning, in a few words, also the label.
 
     Returns
     -------
@@ -179,7 +179,7 @@ class Scalar(Result):
 
     @property
     def status(self) -> Status:
-        """Status of the result."""
+        """Status of the result; `Status.OK` if the result has none."""
         return getattr(self.of, "status", Status.OK)
 
     def labels(self) -> Labels:
@@ -188,13 +188,13 @@ class Scalar(Result):
         Returns
         -------
         Labels
-            The labels.
+            The labels; for a number that stands alone, only the number as a fact.
         """
         return Labels({}, {}, facts={"value": self.value}) if self.of is None else self.of.labels()
 
 
 VectorizedResult = tuple[Mapping[str, Array], Mapping[type[ModelError], Mask]]
-"""Numbers of many cells by name, NaN where there is none, and the cells without one by the type of their error."""
+"""Numbers of n cells by name, shape (n,), NaN where there is none, and by type of error the mask of its cells."""
 
 
 @dataclass(frozen=True)
@@ -210,31 +210,32 @@ class Computation:
     function : callable
         The public function, whose docstring describes it.
     parameters : tuple of Parameter
-        Its numbers, whose defaults are the example.
+        Its numerical arguments, in order; their defaults, with the changes in `example`, are an example.
     numbers : mapping of str to Number
         The numbers of a result by name; the first is the default of a sweep.
     kind : Kind
-        Row of the table of accuracy, which gives levels their meaning.
+        Kind of computation, which gives accuracy levels their meaning, see `accuracy.PLANS`.
     comparison : str or callable, default ""
         Values of a result that `error` compares: an attribute, or the first number by default.  Or the error, as a
         function of a result and a more accurate one.
     call : callable, optional
-        Function call(accuracy, **values) that computes it, if `function` has other arguments.  It raises a
-        `ModelError`.
+        Function call(accuracy, **values) that computes the result, if `function` has other arguments.  It raises a
+        `ModelError` if there is no result.  In a computation that is passed to `declare`, see there.
     unit : str, default "1"
         Unit of the error.
     choices : tuple of Choice, default ()
         Its arguments that are words.
-    example : mapping of str to Value
+    example : mapping of str to Value, optional
         Values that differ from the defaults in the example, so that it takes about a second.
     system : str, default ""
-        Name of the system; empty for a computation of its own.
+        Name of the system, or of its motions from a section; empty for a computation that belongs to one problem.
     source : str, default ""
         Label of the equation in the paper, or a citation.
     group : {"compute", "prove"}, default "compute"
         Heading of its command.
     vectorized : callable, optional
-        Function many(accuracy, **columns) that computes some of the numbers for many cells at once.
+        Function vectorized(accuracy, **columns) that computes some of the numbers for n cells at once, from an array
+        (n,) for each parameter.
     """
 
     name: str
@@ -260,11 +261,11 @@ class Computation:
 
     @property
     def doc(self) -> str:
-        """The first sentences of the function's docstring."""
+        """The docstring of the function up to its parameters; empty without a docstring."""
         return (self.function.__doc__ or "").partition("\n\n    Parameters")[0].strip()
 
     def parameter(self, name: str) -> Parameter:
-        """Return the parameter of a given name.
+        """Return the parameter with a given name.
 
         Parameters
         ----------
@@ -289,7 +290,7 @@ class Computation:
         )
 
     def number(self, name: str) -> Number:
-        """Return the number of a given name.
+        """Return the number with a given name.
 
         Parameters
         ----------
@@ -311,7 +312,7 @@ class Computation:
         return self.numbers[name]
 
     def values(self, arguments: Mapping[str, Any] | None = None) -> dict[str, Value]:
-        """Return the checked values of all arguments.
+        """Return the values of all arguments, checked against their ranges and choices.
 
         Parameters
         ----------
@@ -343,7 +344,7 @@ class Computation:
         return values
 
     def compute(self, arguments: Mapping[str, Any] | None = None, accuracy: Accuracy = "precise") -> Any:
-        """Return the result for some values.
+        """Return the result for given values of the arguments.
 
         Parameters
         ----------
@@ -355,10 +356,12 @@ class Computation:
         Returns
         -------
         Result
-            The result.
+            The result; a `Scalar` if the function returns a float.
 
         Raises
         ------
+        InvalidParameter
+            If there is no such argument or accuracy level, or a value is out of range.
         ModelError
             If there is no result for these values.
         """
@@ -386,16 +389,16 @@ class Computation:
         return largest_difference(read(result), read(exact))
 
     def trade(self, arguments: Mapping[str, Any] | None = None, repeats: int = 1) -> tuple[LevelCost, ...]:
-        """Return time and error at each level, measured on this machine.
+        """Return the time and the error at each level, measured on this machine.
 
-        The error is the distance from a run that is finer than `reference`.
+        The error is that of `error`, compared with a run that is finer than "reference".
 
         Parameters
         ----------
         arguments : mapping of str to object, optional
             Values by name; the others have their defaults.
         repeats : int, default 1
-            Number of runs at each level, of which the fastest counts.
+            Number of runs at each level, at least 1, of which the fastest counts.
 
         Returns
         -------
@@ -423,15 +426,15 @@ def declare(of: Motions, one: Computation, on_section: bool = False) -> Computat
     of : Motions
         The motions.
     one : Computation
-        Computation whose function takes body, initial state and accuracy before its parameters, or with `on_section`
-        the return map and a point of the section.
+        Computation whose `call`, or else `function`, takes the body, the initial state, its parameters by name and the
+        accuracy; with `on_section` the return map, a point of the section and its parameters by name.
     on_section : bool, default False
         True for a computation of a section.
 
     Returns
     -------
     Computation
-        The computation of this system.
+        The computation of this system, with the parameters of the motions before its own.
     """
     own = (*of.parameters, *of.point)
     names = {each.name for each in own}
@@ -455,7 +458,7 @@ def declare(of: Motions, one: Computation, on_section: bool = False) -> Computat
 
 
 def largest_difference(values: Any, exact: Any) -> float:
-    """Return the largest difference of two arrays of one shape.
+    """Return the largest absolute difference between two arrays of the same shape.
 
     Parameters
     ----------
@@ -465,7 +468,7 @@ def largest_difference(values: Any, exact: Any) -> float:
     Returns
     -------
     float
-        The difference; NaN if the shapes differ or the arrays are empty.
+        The difference, ≥ 0; NaN if the shapes differ, the arrays are empty, or an element is NaN.
     """
     one, other = np.asarray(values, float), np.asarray(exact, float)
     if one.shape != other.shape or not one.size:

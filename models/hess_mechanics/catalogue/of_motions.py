@@ -33,7 +33,7 @@ _STEPS = (
 _TUBE_PARAMETERS = (
     with_default(known.TIME, 2.0),
     integer("samples", "n", 5, 2, MAX_SAMPLES, "Number of evenly spaced times, including 0."),
-    integer("digits", "n", 18, 1, 100, "Number of digits that determines the width of the intervals."),
+    integer("digits", "n", 18, 1, 100, "Accuracy of the intervals, in decimal digits."),
     real(
         "seconds",
         "s",
@@ -73,7 +73,7 @@ def computations(system: System) -> Iterator[Computation]:
     Yields
     ------
     Computation
-        A computation, without the parameters of the system.
+        A computation, still without the parameters of the system and the initial state, see `declared.declare`.
     """
     names = system.variables
     yield Computation(
@@ -211,7 +211,7 @@ def computations(system: System) -> Iterator[Computation]:
             real("right_to", "ε", 1e-6, 1e-300, 1e3, "Largest error of a state that counts as correct."),
         ),
         {
-            "error": Number("ε", "upper end of the proved largest error", "largest"),
+            "error": Number("ε", "proved upper bound on the error", "largest"),
             "right-until": Number("t", "last time up to which the orbit is correct", "valid_until", "time"),
         },
         Kind.ORBIT,

@@ -55,7 +55,9 @@ def _tori(accuracy: Level, a: Array, h: Array, f: Array, phi: Array) -> Vectoriz
 
 def _cycle(theta: CircleMap, number: int) -> FixedPoint:
     if len(theta.fixed_points) != 2:
-        raise NoValue(f"The circle map is {theta.kind}: the torus has no pair of limit cycles.")
+        raise NoValue(
+            f"The circle map is {theta.kind}: the torus has no pair of limit cycles. Choose a torus with |trace| > 2."
+        )
     return theta.fixed_points[number]
 
 
@@ -185,7 +187,7 @@ COMPUTATIONS: tuple[Computation, ...] = (
         ),
         {
             "theta-plus": Number("θ⁺", "angle of the circle that a motion joins", unit="rad", error_reader="error"),
-            "cos-chi": Number("cos χ", "angle of scattering, computed", "of.cos_chi"),
+            "cos-chi": Number("cos χ", "cosine of the angle of scattering, computed", "of.cos_chi"),
         },
         Kind.MAP,
         call=_scattering,

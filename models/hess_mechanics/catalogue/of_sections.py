@@ -76,7 +76,7 @@ def _reader_of(name: str) -> Callable[[Regime], float]:
 
 def _first(cascade: Cascade) -> float:
     if not len(cascade.values):
-        raise NoValue("There is no period doubling in this range: choose a larger range.")
+        raise NoValue("No period doubling was found in this range: choose a larger range.")
     return float(cascade.values[0])
 
 
@@ -99,19 +99,19 @@ _OF_MOTION: Mapping[str, Number] = {
 
 
 def computations(example: PoincareSection, period: int) -> Iterator[Computation]:
-    """Yield the computations of a kind of section.
+    """Yield the computations of a kind of section; those of a plane only if the section has two coordinates.
 
     Parameters
     ----------
     example : PoincareSection
-        One of these sections.
+        One of these sections, which gives the default values of its constants.
     period : int
-        Number of returns of the periodic orbit in the examples.
+        Number of returns of the periodic orbit in the examples; 0 to detect it.
 
     Yields
     ------
     Computation
-        A computation, without the parameters of the section.
+        A computation, still without the parameters of the section and its point, see `declared.declare`.
     """
     constants = example.constants
     # The default lies a little above the energy.
@@ -211,7 +211,9 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
         dynamics_of,
         _REGIME_PARAMETERS,
         {
-            "distance": Number("d", "distance of attractor and repeller", "distance", error_reader="distance_error"),
+            "distance": Number(
+                "d", "distance between attractor and repeller", "distance", error_reader="distance_error"
+            ),
             "shared": Number("s", "fraction of the points common to both sets", "overlap"),
         },
         Kind.INDICATOR,
@@ -277,6 +279,6 @@ def computations(example: PoincareSection, period: int) -> Iterator[Computation]
 
 
 def _points_away(one: PlanePoints, exact: PlanePoints) -> float:
-    """Return the largest distance of the first twenty points of each orbit; later points differ by chaos."""
+    """Return the largest difference over the first twenty points of each orbit; chaos separates later points."""
     pairs = zip(one.orbits, exact.orbits, strict=False)
     return max((largest_difference(a[:20], b[:20]) for a, b in pairs), default=np.nan)

@@ -98,12 +98,12 @@ class BallScattering(Result):
         return np.column_stack([self.phis, self.theta_plus])
 
     def theta_plus_at(self, phi: float) -> float:
-        """Return θ⁺ at a phase by linear interpolation.
+        """Return θ⁺ at a phase by linear interpolation; `phis` must increase.
 
         Parameters
         ----------
         phi : float
-            Phase φ in radians, between the first and the last of `phis`.
+            Phase φ in radians; beyond the ends of `phis` θ⁺ keeps its value at the end.
 
         Returns
         -------
@@ -152,7 +152,7 @@ def _lag(body: BallBody, theta: float, phis: Array) -> Complex | None:
 
 
 def starts(strip: Strip, theta: float, phis: Array, distance: float) -> tuple[Array, Array]:
-    """Return initial states of motions from the circle θ of N^u, and how far they are from that circle.
+    """Return initial states of motions from the circle θ of N^u, and bounds on the errors of θ.
 
     ω is along ξ + distance·η.  γ is at φ on the circle up to a term of the order of `distance`, see the module.
 
@@ -172,7 +172,7 @@ def starts(strip: Strip, theta: float, phis: Array, distance: float) -> tuple[Ar
     states : ndarray, shape (n, 5)
         States (ω1, ω2, γ1, γ2, γ3).
     errors : ndarray, shape (n,)
-        Upper bounds on the distance of θ from the circles from which the motions come, in radians.
+        Bounds on the difference between θ and the angle of the circle from which each motion comes, in radians, ≤ π.
 
     Raises
     ------
@@ -287,7 +287,7 @@ def ball_scattering(
     accuracy : str or Level
         Accuracy level or its name, see `level`.
     max_steps : float, optional
-        Limit on the steps, positive; they are estimated beforehand.
+        Limit on the steps of all motions together, positive; they are estimated beforehand.
 
     Returns
     -------
@@ -299,7 +299,7 @@ def ball_scattering(
     InvalidParameter
         If an argument is out of range, the ball has a field, or I13 = I23 = 0.
     WorkLimit
-        If the motion needs more than `max_steps` steps.
+        If the motions need more than `max_steps` steps.
 
     Notes
     -----
@@ -324,7 +324,7 @@ def ball_scattering(
     phis = np.array(phis, float, ndmin=1)
     require_finite(theta_minus=theta_minus, distance=distance)
     if phis.ndim != 1 or phis.size == 0 or not np.all(np.isfinite(phis)):
-        raise InvalidParameter("The phases φ are empty or not finite: give one or more finite numbers.")
+        raise InvalidParameter("The phases φ are not a list of finite numbers: give one or more finite numbers.")
     if not 0.0 <= theta_minus <= math.pi:
         raise InvalidParameter(f"θ⁻ = {theta_minus:g}, but it is an angle between two vectors: choose 0 ≤ θ⁻ ≤ π.")
     if not 1e-10 <= abs(distance) <= 0.1:
@@ -345,8 +345,8 @@ def ball_scattering(
     steps = _STEPS * (1e-9 / tight.tolerance) ** (1.0 / tight.order) * (nu + rates.max()) * span * phis.size
     if not steps <= max_steps:
         raise WorkLimit(
-            f"γ settles on its circle so slowly that θ⁺ takes about {steps:.0e} steps: choose larger I13 or "
-            "I23, or a smaller 𝒟."
+            f"θ⁺ takes about {steps:.0e} steps: choose fewer phases, a cheaper accuracy, larger |I13| or "
+            "|I23|, or a smaller 𝒟."
         )
     orbits = complete(ensemble(body, states, [span], tight))
     end = orbits.states[:, 0]
@@ -370,7 +370,7 @@ def ball_scattering(
 def all_phases(
     body: BallBody, theta_minus: float, count: int, distance: float, accuracy: Accuracy, max_steps: float
 ) -> BallScattering:
-    """Return the scattering at equidistant phases from −π to π; θ⁺ does not depend on the energy.
+    """Return the scattering at equidistant phases from −π to π, both included; θ⁺ does not depend on the energy.
 
     Parameters
     ----------
@@ -385,7 +385,7 @@ def all_phases(
     accuracy : str or Level
         Accuracy level.
     max_steps : float
-        Limit on the steps, which are estimated beforehand.
+        Limit on the steps of all motions together, which are estimated beforehand.
 
     Returns
     -------

@@ -41,7 +41,7 @@ def nearest_possible_psi(band: tuple[float, float], psi: float) -> float:
     Returns
     -------
     float
-        Angle in [−π, π]; it differs from `psi` only in the band or next to it.
+        `psi` itself, or an angle in [−π, π] just outside the band if `psi` lies in it or within 1e-3 rad of it.
     """
     middle, half = band
     away = math.remainder(psi - middle, 2.0 * math.pi)

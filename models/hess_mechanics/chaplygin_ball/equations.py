@@ -157,7 +157,7 @@ def inverse_times(F: Sequence[Any], gamma: Sequence[Any] | Array, I11: Any, I22:
 
 
 def determinant(gamma: Sequence[Any] | Array, p: Sequence[Any]) -> Any:
-    """Return det Î of `eq29`, expanded.
+    """Return det Î of `eq29`, as a sum of terms that are not negative.
 
     Parameters
     ----------
@@ -220,7 +220,7 @@ def integrals(y: Sequence[Any], p: Sequence[Any]) -> Mapping[str, Any]:
 
 
 def frequency(y: Array, p: Array) -> Array | float:
-    """Return ν = √(2(E+|b||γ|)/min(I11, I22)), an upper bound on |ω| along the motion.
+    """Return ν = √(2(T + 2|b||γ|)/min(I11, I22)), an upper bound on |ω| along the motion; T is the kinetic energy.
 
     Parameters
     ----------
@@ -261,8 +261,8 @@ _SHARE = 0.2
 def tolerance(y: Array, p: Array, order: int, default: float) -> float:
     """Return the tolerance for a start close to, but not on, the line I13ω1 + I23ω2 = 0 without a field.
 
-    The distance from the line is tiny beside γ, so that the step control ignores it and the series of 1/d: the steps
-    would be too long.  The time of departure depends on all digits of that distance.
+    The distance from the line is tiny beside γ, so the step control would ignore it, and the series of 1/d too, and
+    take steps that are too long.  The time of departure depends on all digits of that distance.
 
     Parameters
     ----------

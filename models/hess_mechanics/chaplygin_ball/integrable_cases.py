@@ -148,7 +148,7 @@ def period(body: BallBody, start: Sequence[float], accuracy: Accuracy = "precise
     Raises
     ------
     InvalidParameter
-        If the body is not reversible, or the orbit does not cross the equator γ3 = 0 twice.
+        If the body is not reversible, or the orbit does not cross the equator γ3 = 0 twice within the time limit.
     WorkLimit
         If the orbit needs too many steps.
 
@@ -170,7 +170,7 @@ def period(body: BallBody, start: Sequence[float], accuracy: Accuracy = "precise
     """
     level = as_level(accuracy)
     if not is_reversible(as_a(BallBody, body)):
-        raise InvalidParameter("Orbits are periodic only for I13 = I23 = 0 and b3 = 0: set these to 0.")
+        raise InvalidParameter("The period needs the symmetry of I13 = I23 = 0 and b3 = 0: set these to 0.")
     p, given = np.array(body.parameters), np.array(as_point(SYSTEM.variables, start))
     moment = max(body.I11, body.I22) + body.D
     least = min(body.I11, body.I22)

@@ -194,7 +194,7 @@ def shell(body: BallBody, h: float, spread: float, count: int) -> Array:
     h : float
         Energy, h > 0.
     spread : float
-        Relative half width of the range of energies, 0 to 1.
+        Relative half width of the range of energies, above 0 and below 1.
     count : int
         Number of states, positive.
 
@@ -241,7 +241,7 @@ def patch(body: BallBody, h: float, angle: float, spread: float, count: int) -> 
     angle : float
         Angle of the centre in the (ω1, ω2) plane, in radians.
     spread : float
-        Radius of the disc, in units of |ω| at its centre, and of the cap, in radians; 0 to 1.
+        Radius of the disc, in units of |ω| at its centre, and of the cap, in radians; above 0 and below 1.
     count : int
         Number of states, positive.
 
@@ -298,7 +298,7 @@ def frame_times(body: BallBody, states: Array, duration: float, field: float = 0
     InvalidParameter
         If the energy is not positive.
     WorkLimit
-        If more frames are needed than allowed.
+        If the duration needs more frames than allowed.
     """
     twice, least = _twice_energy(body, states) + 4.0 * abs(field), min(body.I11, body.I22)
     r = min(1.0, math.sqrt(least / (3.0 * body.D))) if body.D else 1.0
@@ -310,8 +310,8 @@ def frame_times(body: BallBody, states: Array, duration: float, field: float = 0
     if not frames <= _SPARSE * most:
         longest = abs(duration) * _SPARSE * most / frames
         raise WorkLimit(
-            f"In this time the cloud turns too often for {most} frames: choose a time span below {plain(longest, 2)}, "
-            "or fewer points."
+            f"In this time the cloud moves too fast for {most} frames: choose a time span below {plain(longest, 2)} or "
+            "so, or fewer points."
         )
     return np.linspace(0.0, duration, max(_LEAST_FRAMES, min(most, math.ceil(frames))))
 
@@ -327,7 +327,7 @@ def _run(states: Array, p: Array, times: Array, level: Level, max_steps: int) ->
     require_finite_states(out)
     if not np.all(np.abs(out[..., 1]) > _CLOSEST):
         raise WorkLimit(
-            "The cloud comes closer to the line of equilibria s = 0 than double precision can resolve: choose a "
+            "The cloud comes closer to the line I13ω1 + I23ω2 = 0 than double precision can resolve: choose a "
             "shorter time span."
         )
     out[..., 1] = np.log(np.abs(out[..., 1]))
@@ -338,8 +338,8 @@ def cloud_of(body: BallBody, states: Array, times: Array, accuracy: Accuracy) ->
     """Return the cloud of given phase points at given times, with b = 0.
 
     The error of every sixteenth point, and of those that start closest to s = 0, is estimated by a second run with a
-    hundredth of the tolerance from a start `perturb`.  If it exceeds the promise of the level all points are recomputed
-    with that tolerance, down to the floor of double precision.
+    hundredth of the tolerance from a start moved by `perturb`.  If it exceeds the promise of the level, all points are
+    recomputed with that tolerance, down to the floor of double precision.
 
     Parameters
     ----------
@@ -360,7 +360,7 @@ def cloud_of(body: BallBody, states: Array, times: Array, accuracy: Accuracy) ->
     Raises
     ------
     InvalidParameter
-        If the ball has a field, I13 = I23 = 0, or a point has s = 0.
+        If the ball has a field, I13 = I23 = 0, a point has s = 0, or the times are not in order.
     WorkLimit
         If the motions need too many steps, or come too close to s = 0.
     """

@@ -83,7 +83,8 @@ class Density(Result):
     mean : ndarray, shape (k,)
         The same, averaged over time.
     height : float
-        Mean density in bins that all points pass, positive.
+        Mean density in bins that all points pass, from the change of ln|s| (median of the points) in the last quarter
+        of the times; ∞ if it does not change.
     """
 
     log_s: Array
@@ -106,7 +107,7 @@ class Density(Result):
 
     @property
     def upper_quarter(self) -> tuple[float, float]:
-        """The |s| at the upper quarter of the range of ln|s|, which most points pass, and the mean there."""
+        """The |s| at the upper quarter of the range of ln|s|, which most points pass, and the mean density there."""
         i = 3 * self.log_s.size // 4
         return math.exp(float(self.log_s[i])), float(self.mean[i])
 
@@ -153,7 +154,7 @@ class Clouds:
     sides : (int, int, int), optional
         Numbers of points by the sign of F2, see `sides`; None if no F2 is known.
     other : Ensemble, optional
-        The cloud of the body on a principal axis; None if there is none.
+        The second cloud, of the body with I13 = I23 = 0 and a field; None if it is not requested.
     """
 
     cloud: Cloud
@@ -247,7 +248,7 @@ def clouds(
     field: float | None,
     accuracy: Accuracy,
 ) -> Clouds:
-    """Return a cloud of a `patch` at an angle, or of a `shell`, its evolution, and a second cloud with a field.
+    """Return a cloud that starts in a `patch` or a `shell`, its evolution, and optionally a second cloud with a field.
 
     Parameters
     ----------
@@ -258,9 +259,9 @@ def clouds(
     angle : float or None
         Angle of the centre of the patch, in radians; None for a shell.
     spread : float
-        Spread of the points, 0 to 1, see `patch` and `shell`.
+        Spread of the points, above 0 and below 1, see `patch` and `shell`.
     count : int
-        Number of points of both clouds together.
+        Number of points of both clouds together; with a second cloud each has half of them, rounded down.
     duration : float
         Time; negative: backward.
     field : float or None

@@ -92,6 +92,7 @@ def _times(body: BallBody, speed: float) -> Array:
 
 
 def _as_far_as_the_line(first: Array, others: Array, eta: Array, tick: float) -> Array:
+    """Return the points of half an orbit up to the first one after which all are within a pixel of the line."""
     track = np.vstack([first, others])
     away = np.flatnonzero(np.abs(track @ eta) > tick)
     return track[: away[-1] + 2] if away.size else track[:1]

@@ -25,19 +25,19 @@ __all__ = ["CROSSINGS", "LOST", "NOWHERE", "Arrivals", "Orbits", "RecurrentSets"
 CROSSINGS = 240
 """Crossings after which an orbit that has not arrived is lost."""
 NOWHERE, LOST = -1, -2
-"""In place of the number of a set: no motion; not arrived."""
+"""Values in place of the number of a set: no motion at the point; no arrival."""
 _STARTS = 16
 """Orbits along each side of the plane."""
 _CELLS = (512, 256)
 """Cells across and up the plane: two sets closer than two cells count as one."""
 _FEWEST, _MOST = 2, 12
-"""Orbits of the smallest set that is recognised, and the number of sets that are followed longer."""
+"""Smallest number of orbits of a recognised set, and largest number of sets that are followed longer."""
 _TRANSIENT, _LONG = 2000, 4000
-"""Crossings of these orbits that are left out, and that fill the cells of the sets."""
+"""Crossings of an orbit that is followed longer: first those discarded, then those that fill the cells of its set."""
 _ROW = 8
 """Crossings in a row after which an orbit has arrived."""
 _PIECES = (20, 40, 80, 100)
-"""Crossings followed before the orbits that have arrived are left out; their sum is `CROSSINGS`."""
+"""Crossings of each round, after which the orbits that have arrived are left out; their sum is `CROSSINGS`."""
 
 
 class Orbits(Protocol):
@@ -66,12 +66,12 @@ class Orbits(Protocol):
 
 @dataclass(frozen=True)
 class RecurrentSets:
-    """Sets that orbits approach, in the order of the number of orbits.
+    """Sets that orbits approach, numbered from 0 by the size of their largest group of orbits, the largest first.
 
     Attributes
     ----------
     table : ndarray of int, shape (n, m)
-        Number of the set of each cell of the plane, also of those beside it; `LOST` elsewhere.
+        Number of the set in its cells and in those beside them, with n cells up and m across; `LOST` elsewhere.
     states : tuple of tuple of float
         A state of each set.
     """
@@ -80,7 +80,7 @@ class RecurrentSets:
     states: tuple[tuple[float, ...], ...]
 
     def subset(self, which: Sequence[bool]) -> RecurrentSets:
-        """Return some of the sets, renumbered.
+        """Return some of the sets, renumbered from 0 in the same order.
 
         Parameters
         ----------
@@ -90,7 +90,7 @@ class RecurrentSets:
         Returns
         -------
         RecurrentSets
-            These sets.
+            The chosen sets.
         """
         numbers = np.append(np.where(which, np.cumsum(which) - 1, LOST), LOST).astype(np.int16)
         states = tuple(state for state, flag in zip(self.states, which, strict=True) if flag)
@@ -116,14 +116,14 @@ class RecurrentSets:
 
 @dataclass(frozen=True)
 class Arrivals:
-    """The set where the orbits from some points arrive, and the crossings that they need.
+    """The sets where the orbits from some points arrive, and the crossings that they need.
 
     Attributes
     ----------
-    number : ndarray of int
-        Number of the set, `LOST` or `NOWHERE`.
+    number : ndarray of int, shape (n,) or (n, m)
+        Number of the set; `LOST` if the orbit does not arrive, `NOWHERE` if no motion crosses the section at the point.
     crossings : ndarray of int
-        Index of the first crossing in the set, of the same shape; `CROSSINGS` where no set is reached.
+        Index, from 0, of the first crossing in the set, of the same shape; `CROSSINGS` where no set is reached.
     """
 
     number: NDArray[np.int16]
@@ -139,7 +139,7 @@ def _cells(section: PoincareSection, states: Array) -> tuple[NDArray[np.int64], 
 
 
 def _joined(cells: Sequence[tuple[NDArray[np.int64], NDArray[np.int64]]]) -> NDArray[np.int64]:
-    """Return the number of the set of each orbit, from the cells that it visits; they touch within a set."""
+    """Return a set number for each orbit: orbits belong to the same set if the cells that they visit touch."""
     visited = np.zeros(_CELLS[::-1], bool)
     for one in cells:
         visited[one] = True
@@ -158,17 +158,19 @@ def _joined(cells: Sequence[tuple[NDArray[np.int64], NDArray[np.int64]]]) -> NDA
 
 
 def recurrent_sets(orbits: Orbits) -> RecurrentSets:
-    """Return the sets, at most 12, each approached by at least two of 256 orbits from all over the section.
+    """Return the recurrent sets of a section, at most 12, each approached by at least two orbits.
+
+    The orbits start from the points of a 16 × 16 grid over the section at which motions cross it.
 
     Parameters
     ----------
     orbits : Orbits
-        The orbits of the section.
+        The orbits of a section with two coordinates.
 
     Returns
     -------
     RecurrentSets
-        The sets; none if no orbit keeps crossing the section.
+        The sets; none if no two orbits that keep crossing the section approach the same set.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Cells of a picture of basins, divided along the boundaries, and how much a finer grid would change."""
+"""Grids of cells for pictures of basins, refined along the boundaries, and the change that a finer grid would make."""
 
 from __future__ import annotations
 
@@ -16,30 +16,31 @@ __all__ = ["ambiguity", "arrivals_of_cells", "cells_to_compute", "coarsest_cells
 
 
 def _on_boundary(cells: NDArray[Any]) -> Mask:
-    """Return a mask (n, m) of the cells whose number differs from that of a neighbour, of eight."""
+    """Return the mask (n, m) of the cells whose number differs from that of one of their eight neighbours."""
     from scipy import ndimage
 
     return np.asarray(ndimage.maximum_filter(cells, 3) != ndimage.minimum_filter(cells, 3))
 
 
 def _halved(cells: NDArray[Any]) -> NDArray[Any]:
-    """Return cells (2n, 2m) of half the size."""
+    """Return the cells (n, m) divided into cells (2n, 2m) of half the size."""
     return cells.repeat(2, axis=0).repeat(2, axis=1)
 
 
 def cells_to_compute(before: Arrivals | None, cells: tuple[int, int], everywhere: bool, most: int) -> Mask:
-    """Return the mask of the cells to compute: half as large as before, along the boundaries.
+    """Return the mask of the cells to compute: those along the boundaries, half as large as before.
 
     Parameters
     ----------
     before : Arrivals or None
-        Arrivals from the cells before; None for the first cells, which are all computed.
+        Arrivals from cells of twice the size; None for the first cells, which are all computed.
     cells : (int, int)
-        Number of the new cells across and up, (m, n).
+        Numbers (m, n) of the new cells across and up.
     everywhere : bool
-        Divide all cells.
+        Compute all cells, not only those along the boundaries.
     most : int
-        A boundary in more cells is not a curve, and no cell is divided.
+        Largest number of new cells along the boundaries.  If there are more, the boundaries are not curves, and no
+        cell is computed.
 
     Returns
     -------
@@ -62,7 +63,7 @@ def arrivals_of_cells(orbits: Orbits, sets: RecurrentSets, window: Window, mask:
     sets : RecurrentSets
         The recurrent sets.
     window : ((float, float), (float, float))
-        Corners of the window that the cells fill.
+        Corners of the window that the cells fill, see `Window`.
     mask : ndarray of bool, shape (n, m)
         True for the cells to compute.
     part : slice
@@ -71,7 +72,7 @@ def arrivals_of_cells(orbits: Orbits, sets: RecurrentSets, window: Window, mask:
     Returns
     -------
     Arrivals
-        The arrivals.
+        The arrivals from the cells of this part, in their order.
 
     Raises
     ------
@@ -90,11 +91,11 @@ def merge(before: Arrivals | None, mask: Mask, parts: Sequence[tuple[slice, Arri
     Parameters
     ----------
     before : Arrivals or None
-        Arrivals from cells of twice the size; None for the first cells.
+        Arrivals from cells of twice the size; None for the first cells, whose mask must be True everywhere.
     mask : ndarray of bool, shape (n, m)
         True for the cells that were computed.
     parts : sequence of (slice, Arrivals)
-        New arrivals, in parts.
+        Parts of these cells, as for `arrivals_of_cells`, with their arrivals.
 
     Returns
     -------
@@ -111,17 +112,19 @@ def merge(before: Arrivals | None, mask: Mask, parts: Sequence[tuple[slice, Arri
 
 
 def coarsest_cells(cells: NDArray[Any]) -> NDArray[Any]:
-    """Return the coarsest cells that show the same boundaries; some are left undivided, see `cells_to_compute`.
+    """Return the coarsest grid that shows the same boundaries.
+
+    A grid whose cells were not divided, see `cells_to_compute`, consists of blocks of 2 × 2 equal cells.
 
     Parameters
     ----------
     cells : ndarray, shape (n, m)
-        Number of each cell.
+        Number of the basin of each cell.
 
     Returns
     -------
-    ndarray
-        Cells of the same or of a larger size.
+    ndarray, shape (n/2ᵏ, m/2ᵏ)
+        The cells, after k ≥ 0 halvings of the grid; k = 0 if all numbers are equal.
     """
     while np.ptp(cells) and not any(side % 2 for side in cells.shape):
         coarse = cells[::2, ::2]
@@ -145,7 +148,7 @@ def ambiguity(cells: NDArray[Any]) -> float:
     Returns
     -------
     float
-        The fraction, 0 to 1.
+        The fraction, 0 to ½.
     """
     across, up = np.abs(np.diff(cells, axis=1)) > 0, np.abs(np.diff(cells, axis=0)) > 0
     return 0.25 * float(across.sum() + up.sum()) / cells.size

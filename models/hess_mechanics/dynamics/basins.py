@@ -34,7 +34,7 @@ __all__ = [
 _BATCHES = 12
 _SAMPLES = 4000
 _TURNS = 40.0
-"""Time limit per crossing, as of `section_crossings`: shorter, as many orbits of a basin cross no more."""
+"""Time limit per crossing, see `section_crossings`; less than by default, because many orbits stop crossing."""
 _MOST_STEPS = 1_000_000
 """Limit of the steps of an orbit."""
 
@@ -46,7 +46,7 @@ class MeanDivergence:
     Attributes
     ----------
     times : ndarray, shape (n,)
-        Times.
+        Times after the start, in units T.
     mean : ndarray, shape (n,)
         Mean divergence up to each time, in 1/T.
     """
@@ -56,7 +56,7 @@ class MeanDivergence:
 
 
 def mean_divergence(body: Body, start: Sequence[float], duration: float) -> MeanDivergence:
-    """Return the mean divergence along an orbit at 4000 times.
+    """Return the mean divergence along an orbit up to each of 4000 times, at the accuracy level `draft`.
 
     Parameters
     ----------
@@ -65,19 +65,21 @@ def mean_divergence(body: Body, start: Sequence[float], duration: float) -> Mean
     start : sequence of float, shape (d,)
         Initial state.
     duration : float
-        Time, nonzero; negative: backward.
+        Duration, nonzero, in units T; negative for backward in time.
 
     Returns
     -------
     MeanDivergence
-        The running means.
+        The running means, at evenly spaced times.
 
     Raises
     ------
     InvalidParameter
-        As `solve`.
+        If a number is not finite.
     WorkLimit
-        As `solve`.
+        If the orbit needs too many steps.
+    MotionEnds
+        If the motion escapes to infinity, or reaches a state without finite rates.
     """
     times = np.linspace(0.0, duration, _SAMPLES + 1)
     rates = body.system.divergence(solve(body, start, times, DRAFT).states, body.parameters)
@@ -102,14 +104,14 @@ class Contraction:
 
     @property
     def attracts(self) -> bool:
-        """True if the mean is negative beyond its error."""
+        """True if the mean is negative by more than three times its error."""
         return bool(volume_sign(self.mean, self.error) < 0)
 
 
 def contraction(body: Body, start: Sequence[float], duration: float) -> Contraction:
-    """Return the contraction along an orbit, over the last two thirds of a duration.
+    """Return the mean divergence along an orbit over the last two thirds of a duration, with its error.
 
-    The error is that of the means over 12 intervals of time, treated as independent.
+    The error is the standard error of the mean over 12 intervals of time, treated as independent.
 
     Parameters
     ----------
@@ -118,7 +120,7 @@ def contraction(body: Body, start: Sequence[float], duration: float) -> Contract
     start : sequence of float, shape (d,)
         Initial state.
     duration : float
-        Time, nonzero; negative: backward.
+        Duration, positive, in units T.
 
     Returns
     -------
@@ -128,9 +130,11 @@ def contraction(body: Body, start: Sequence[float], duration: float) -> Contract
     Raises
     ------
     InvalidParameter
-        As `solve`.
+        If a number is not finite.
     WorkLimit
-        As `solve`.
+        If the orbit needs too many steps.
+    MotionEnds
+        If the motion escapes to infinity, or reaches a state without finite rates.
     """
     means = mean_divergence(body, start, duration)
     sums = np.concatenate([[0.0], means.mean * means.times])
@@ -141,7 +145,7 @@ def contraction(body: Body, start: Sequence[float], duration: float) -> Contract
 
 @dataclass(frozen=True)
 class SectionOrbits:
-    """The orbits of a section forward in time, at one level, as `attraction.Orbits`.
+    """The orbits of a section forward in time, computed at one accuracy level; an `attraction.Orbits`.
 
     Parameters
     ----------
@@ -167,12 +171,12 @@ class SectionOrbits:
         Returns
         -------
         list of ndarray, shape (n, d)
-            States at the crossings of each orbit.
+            States at the crossings of each orbit; n < `crossings` if it crosses too rarely.
 
         Raises
         ------
         WorkLimit
-            If an orbit needs too many steps.
+            If an orbit needs too many steps, escapes to infinity or reaches a state without finite rates.
         """
         if not len(starts):
             return []
@@ -184,14 +188,14 @@ class SectionOrbits:
 
 @dataclass(frozen=True)
 class Attractors:
-    """The attractors of a section, and the contraction about each recurrent set.
+    """The attractors of a section, and the mean divergence about each recurrent set.
 
     Attributes
     ----------
     sets : RecurrentSets
         The attractors.
     contractions : tuple of Contraction
-        Contraction about each recurrent set, whether it is an attractor or not.
+        Mean divergence about each recurrent set, whether it is an attractor or not.
     """
 
     sets: RecurrentSets
@@ -204,12 +208,12 @@ class Attractors:
 
     @property
     def all_attract(self) -> bool:
-        """True if every recurrent set attracts."""
+        """True if every recurrent set is an attractor; also if there is no recurrent set."""
         return all(one.attracts for one in self.contractions)
 
     @property
     def largest(self) -> Contraction | None:
-        """The largest mean divergence about a recurrent set; None without a recurrent set."""
+        """Contraction about the recurrent set with the largest mean divergence; None if there is no recurrent set."""
         return max(self.contractions, key=lambda one: one.mean, default=None)
 
 
@@ -219,9 +223,9 @@ def attractors(section: PoincareSection, duration: float, accuracy: Accuracy) ->
     Parameters
     ----------
     section : PoincareSection
-        The section.
+        A section with two coordinates.
     duration : float
-        Time over which each divergence is averaged, positive.
+        Duration of the orbit on each recurrent set, positive, in units T; see `contraction`.
     accuracy : str or Level
         Accuracy level.
 
@@ -235,7 +239,7 @@ def attractors(section: PoincareSection, duration: float, accuracy: Accuracy) ->
     InvalidParameter
         If the duration is not finite.
     WorkLimit
-        If an orbit needs too many steps.
+        If an orbit needs too many steps, escapes to infinity or reaches a state without finite rates.
     """
     sets = recurrent_sets(SectionOrbits(section, accuracy))
     on_each = tuple(contraction(section, state, duration) for state in sets.states)

@@ -29,7 +29,7 @@ ERRORS = 3.0
 _ONE_SIDED = 0.99865
 """Probability that a normal variable stays below three standard deviations."""
 STRETCHES = 12
-"""Stretches of time whose scatter gives the error of a mean rate."""
+"""Number of intervals of time whose scatter gives the error of a mean rate."""
 
 _LEAST_REPEATS = 16
 """An orbit shows a part of period m if it is at least this many periods long."""
@@ -51,16 +51,16 @@ def _weighted_mean(values: Array) -> float:
 
 
 def window_rates(sums: Array, times: Array) -> Array:
-    """Return weighted mean rates of a sum over all times, and over their first, middle and last half.
+    """Return the weighted mean rates of a sum over all the time, and over its first, middle and last half.
 
-    On a torus the remainder of the first one is much smaller than its differences from the others.
+    On a torus the error of the first rate is much smaller than its differences from the others.
 
     Parameters
     ----------
     sums : ndarray, shape (n,)
         The sum at each time.
     times : ndarray, shape (n,)
-        Times.
+        Evenly spaced times, n ≥ 5.
 
     Returns
     -------
@@ -73,7 +73,7 @@ def window_rates(sums: Array, times: Array) -> Array:
 
 
 def irregularity(turns: Sequence[float], points: Array, precision: float) -> float:
-    """Return the difference between averages over the halves of an orbit, in units of that of white noise.
+    """Return the difference between averages over the two halves of an orbit, relative to that of white noise.
 
     On a quasi-periodic orbit with a smooth invariant curve weighted averages converge faster than any power of n, on a
     chaotic one like 1/√n.  In m narrow bands that follow each other most of the motion is periodic and converges too.
@@ -120,7 +120,9 @@ def irregularity(turns: Sequence[float], points: Array, precision: float) -> flo
 
 
 def bounded_series(turns: Sequence[float], points: Array) -> Array:
-    """Return bounded functions along an orbit: cos and sin of angles, other coordinates over their range.
+    """Return bounded functions along an orbit: cos and sin of angles; other coordinates, centred and scaled.
+
+    A coordinate that is not an angle is given relative to its mean and divided by the largest range of a coordinate.
 
     Parameters
     ----------
@@ -132,7 +134,7 @@ def bounded_series(turns: Sequence[float], points: Array) -> Array:
     Returns
     -------
     ndarray, shape (n, m)
-        The functions, one or two for each coordinate.
+        The functions: two for each angle, one for each other coordinate.
     """
     away = points - points.mean(axis=0)
     size = max(float(np.abs(away).max()), float(np.ptp(away, axis=0).max()), 1e-300)
@@ -160,14 +162,14 @@ def rotation_number(points: Array, centre: tuple[float, float] | None = None) ->
     points : ndarray, shape (n, 2)
         Points of the orbit, n ≥ 5.
     centre : (float, float), optional
-        Point about which turns are counted.  By default the first coordinate is the angle, in radians.
+        Point about which turns are counted.  By default the first coordinate is the angle that is counted, in radians.
 
     Returns
     -------
     number : float
         Rotation number in turns per point, in (−½, ½].
     error : float
-        Its error, 0 to ½.
+        Its error, ≥ 0.
 
     Raises
     ------
@@ -201,7 +203,7 @@ def _within_half(turns: Array | float) -> Array | float:
 def volume_sign(divergence: Array | float, error: Array | float) -> NDArray[np.int_]:
     """Return −1 where phase volume shrinks, 1 where it grows, and 0 where neither is significant.
 
-    A mean divergence is significant beyond three times its error and the round-off of a zero.
+    A mean divergence is significant if it exceeds three times its error plus 1e-9/T, the round-off of a zero.
 
     Parameters
     ----------
@@ -220,14 +222,14 @@ def volume_sign(divergence: Array | float, error: Array | float) -> NDArray[np.i
 
 
 def batch_error(sums: Array, times: Array) -> tuple[Array, Array]:
-    """Return the mean rates of sums over time, and their errors, see `Spectrum`.
+    """Return the mean rates of sums over time, and their errors as described at `Spectrum`.
 
     Parameters
     ----------
     sums : ndarray, shape (n, m)
         Sums at each time.
     times : ndarray, shape (n,)
-        Times: the start of the first of 12 equally long stretches, …, the end of the last one.
+        Positive, evenly spaced times that divide into 12 stretches: n − 1 is a multiple of 12.
 
     Returns
     -------
@@ -247,18 +249,22 @@ def batch_error(sums: Array, times: Array) -> tuple[Array, Array]:
 
 
 def ensemble_mean(values: Array) -> tuple[float, float]:
-    """Return the mean over an ensemble of orbits and its error, three of which bound it with 99.7 % confidence.
+    """Return the mean over an ensemble of orbits, and its error.
+
+    The true mean lies within three errors with 99.7 % confidence.
 
     Parameters
     ----------
-    values : Array, shape (m, 4)
+    values : ndarray, shape (m, 4)
         The means along each orbit, m ≥ 2, over all the time and over three halves of it, see `window_rates`.
 
     Returns
     -------
-    tuple of float
-        The mean over all the time, and its error: the standard error of the scatter, widened by Student's t for few
-        orbits, and the remainder that all orbits share, which no scatter shows: the difference of the halves.
+    mean : float
+        The mean over all orbits and all the time.
+    error : float
+        Its error, ≥ 0: the standard error of the scatter, widened by Student's t for few orbits, combined with an error
+        that all orbits share and no scatter shows, estimated from the differences of the halves.
     """
     count = len(values)
     from scipy.special import stdtrit  # Imported here because the import takes 0.1 s.

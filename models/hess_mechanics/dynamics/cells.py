@@ -15,12 +15,12 @@ Window = tuple[tuple[float, float], tuple[float, float]]
 
 
 def centres(low: float, high: float, count: int) -> Array:
-    """Return the centres of equal cells between two ends.
+    """Return the centres of equal cells that fill an interval.
 
     Parameters
     ----------
     low, high : float
-        The ends.
+        Ends of the interval.
     count : int
         Number of cells.
 

@@ -39,7 +39,7 @@ from hess_mechanics.numerics.results import Array, Complex, as_read_only
 __all__ = ["Bifurcation", "Branch", "MapFamily", "branch_from", "extension"]
 
 _FIRST, _LONGEST, _SHORTEST = 0.01, 0.1, 1e-7
-"""Steps along the branch, in units of the coordinates and of the width of the parameter's range."""
+"""First, longest and shortest step along a branch, in units of the coordinates and of the width of the range of λ."""
 _TURN = 0.3
 """Largest turn of the tangent in one step, in radians."""
 _CONSERVATIVE = 1e-6
@@ -48,15 +48,15 @@ _CONSERVATIVE = 1e-6
 _SINGULAR = (NotConverged, ModelError, np.linalg.LinAlgError)
 """Errors raised where two branches cross."""
 _MAPS = 8
-"""Maps of a family that are kept: Newton's method comes back to some."""
+"""Number of cached maps of a family: Newton's method returns to some of them."""
 _SHARES, _HALVINGS = (0.5, 0.35, 0.65, 0.2, 0.8, 0.05, 0.95), 24
 """Fractions at which a bracket may be divided, tried in this order; and the largest number of divisions."""
 
 MapFamily = Callable[[float], Map]
-"""Function from λ to the map.  Raises a `ModelError` if there is none."""
+"""Function from λ to the map; it raises a `ModelError` if there is none."""
 
 _ASIDE = 1e-3
-"""Distance aside at which the other branch of a crossing is tested for symmetries."""
+"""Distance from a crossing of branches at which the other branch is tested for symmetries."""
 
 
 @dataclass(frozen=True)
@@ -70,11 +70,11 @@ class Bifurcation:
     value : float
         Value of the parameter.
     error : float
-        Estimated error of the value.
+        Estimated error of the value, ≥ 0.
     points : ndarray, shape (m, d)
         Points of the orbit.
     multipliers : ndarray of complex, shape (d,)
-        Multipliers of the orbit.
+        Multipliers of the orbit, the largest first.
     index : int
         Index of the point of the branch before the bifurcation.
     """
@@ -106,17 +106,18 @@ class Branch(Result):
     kinds : tuple of str
         Type of each orbit, see `PeriodicOrbit`.
     errors : ndarray, shape (n,)
-        Estimated errors of the points.
+        Estimated errors of the points, in units of the coordinates.
     bifurcations : tuple of Bifurcation
-        Bifurcations along the branch.
+        Bifurcations, in their order along the branch.
     end_reason : str
         Reason why the branch ends.
     level : str
         Name of the accuracy level.
     times : ndarray, shape (n,), or None
-        Time of one period of each orbit; None if the map does not know it.
+        Time of one period of each orbit, in units T; None if it was not computed.
     heading : (ndarray, float) or None
-        Tangent at the last point and length of the next step; None if the branch cannot be continued.
+        Tangent (m d + 1,) at the last point and length of the next step, both in the units of the steps; None if the
+        branch has come to an end.
     """
 
     parameter: str
@@ -143,12 +144,12 @@ class Branch(Result):
         return float(self.errors.max())
 
     def labels(self) -> Labels:
-        """Return the first point, the multipliers and the type of each orbit, labelled with the parameter.
+        """Return the first point, multipliers, type, error and time of each orbit, labelled with the parameter.
 
         Returns
         -------
         Labels
-            The arrays over the points of the branch.
+            The arrays over the points of the branch, without the times if these are None.
         """
         along = ("point",)
         parts = {
@@ -228,7 +229,7 @@ class _Track:
         return np.append(points.ravel() / self.root, value / self.width)
 
     def point(self, z: Array, iterations: int = 0, better: bool = False) -> _Point:
-        """Return F and its derivatives at z.  Raises as the family."""
+        """Return F and its derivatives at z.  Raises the errors of the family and of its maps."""
         points, value = self.split(z)
         map_ = self.map_at(value).tighter() if better else self.map_at(value)
         shot = shoot(map_, points)
@@ -277,7 +278,7 @@ class _Track:
 
 
 def _signs(point: _Point, t: Array) -> dict[str, float]:
-    """Return the functions that change sign at a bifurcation, by its kind."""
+    """Return the functions that change sign at a bifurcation, by the kind of the bifurcation."""
     values, trace, determinant = multipliers_of(point.shot.derivatives)
     signs = {"fold": float(t[-1]), "branch point": float(np.linalg.det(np.vstack([point.bordered, t])))}
     if values.size == 1:
@@ -308,26 +309,27 @@ def branch_from(
 ) -> Branch:
     """Return the branch of an orbit of the map at λ = `start`, towards λ = `end`.
 
-    It ends where it leaves the range, after `points` points, where the map ends, or at a bifurcation of kind `until`.
+    It ends at either end of the range, after `points` points, where Newton's method fails, or at the first point beyond
+    a bifurcation of kind `until`.
 
     Parameters
     ----------
-    family : callable
+    family : MapFamily
         Function from λ to the map.
     orbit : PeriodicOrbit
         A periodic orbit at λ = `start`.
     parameter : str
         Name of λ.
     start, end : float
-        Values of λ at the start and at the end of the range.
+        Values of λ at which the branch starts, and towards which it starts; `end` is one end of the range.
     points : int, default 200
         Largest number of points.
     edge : float, optional
-        Other end of the range, beyond `start`.  By default `start`.
-    longest : float, optional
+        Other end of the range: `start`, or a value on the side of `start` that is away from `end`.  By default `start`.
+    longest : float, default 0.1
         Longest step along the branch, in units of the coordinates and of the width of the range.
-    until : str, optional
-        Kind of the bifurcation beyond which the branch is not needed.
+    until : str, default ""
+        Kind of bifurcation beyond which the branch is not needed, such as "flip"; empty for none.
 
     Returns
     -------
@@ -337,15 +339,18 @@ def branch_from(
     Raises
     ------
     InvalidParameter
-        If the range is empty or not finite.
+        If the range is empty or not finite, or `start` is not in it.
     WorkLimit
         If the map needs too many steps.
     NotConverged
-        If the branch cannot be started.
+        If the branch cannot be started: the orbit is none of this map, is at a bifurcation or belongs to a family.
     """
     edge = start if edge is None else edge
     if not (all(map(math.isfinite, (start, end, edge))) and min(edge, end) <= start <= max(edge, end) and start != end):
-        raise InvalidParameter(f"{parameter} runs from {start:g} to {end:g}: give two different finite numbers.")
+        raise InvalidParameter(
+            f"{parameter} cannot go from {start:g} to {end:g}: give two different finite numbers, and as `edge`, "
+            "if any, a finite one that is not on the side of the second."
+        )
     track = _Track(lru_cache(_MAPS)(family), parameter, orbit.names, orbit.level, (edge, end), orbit.points.shape)
     along = np.zeros(orbit.points.size + 1)
     along[-1] = math.copysign(1.0, end - start)
@@ -354,8 +359,9 @@ def branch_from(
         point = track.corrected(z, along)
     except NotConverged as error:
         raise NotConverged(
-            f"The branch cannot start at {parameter} = {start:g}: the orbit is at a bifurcation, or belongs to a "
-            "family at this parameter. Start at a slightly different value."
+            f"The branch cannot start at {parameter} = {start:g}: the orbit is not one of this map, is at a "
+            "bifurcation, or belongs to a family of periodic orbits. Start at a slightly different value, with an "
+            "orbit of the map there."
         ) from error
     return _followed(track, point, point.tangent(along), points, min(_FIRST, longest), longest, until)
 
@@ -377,12 +383,12 @@ def extension(
     branch : Branch
         Branch that has a `heading`.
     end : float
-        Value of λ at which the branch ends.
+        Value of λ at one end of the range, as for `branch`.
     edge : float
-        Other end of the range of λ.
+        Value of λ at the other end, as for `branch`.
     points : int, default 200
-        Largest number of further points.
-    longest : float, default _LONGEST
+        Largest number of points, with the first one.
+    longest : float, default 0.1
         Longest step along the branch, in units of the coordinates and of the width of the range.
 
     Returns
@@ -545,7 +551,7 @@ def _closed_in(
     """Return the error of the scaled λ at a zero next to which the equations are singular, and the point there.
 
     The bracket is narrowed; within it λ changes no faster than at its ends, and the secant gives the zero.  `at`
-    returns the point and the sign at a distance along t; `point` is the present estimate.
+    returns the point and the function at a distance along t; `point` is the present estimate.
     """
     low, high = bracket
     rate = 1.0
@@ -563,14 +569,14 @@ def _closed_in(
         if f_before * f_after < 0.0:
             point = track.point(before.z + (after.z - before.z) * f_before / (f_before - f_after))
             rate = 1.25 * max(abs(float(one.tangent(t)[-1])) for one in (before, after))
-    # The error of the map itself is only known by its promise.
+    # Of the error of the map itself only the promised bound is known.
     return rate * (high - low) + track.map_at(track.split(point.z)[1]).promise, point
 
 
 def _first_of(
     at: Callable[[float], tuple[_Point, float]], distances: Sequence[float]
 ) -> tuple[float, _Point, float] | None:
-    """Return the first of some distances at which the equations are regular, with point and sign."""
+    """Return the first of some distances at which the equations are regular, with the point and the function there."""
     for s in distances:
         with suppress(*_SINGULAR):
             return s, *at(s)

@@ -17,7 +17,7 @@ __all__ = ["DoubleDoubleOrbit", "double_double_orbit"]
 
 _MOST_STEPS = 100_000
 _AT_ONCE = 20
-"""Number of times integrated between two calls of `check_limit`."""
+"""Number of output times computed between two calls of `check_limit`."""
 
 
 @dataclass(frozen=True)
@@ -29,9 +29,9 @@ class DoubleDoubleOrbit:
     times : ndarray, shape (n,)
         Times.
     pairs : ndarray of complex, shape (n, d)
-        The states, each number as high + i low.
+        The states; the pair of doubles high and low, whose sum is the number, is stored as high + i low.
     scale : ndarray, shape (d,)
-        Units in which the states are O(1).
+        Units of the variables in which the states are O(1).
     """
 
     times: Array
@@ -62,10 +62,10 @@ class DoubleDoubleOrbit:
 def double_double_orbit(
     body: Body, start: Sequence[float] | Array, times: Sequence[float] | Array
 ) -> DoubleDoubleOrbit:
-    """Return an orbit in double-double arithmetic, with 31 digits.
+    """Return the orbit of a body from an initial state in double-double arithmetic, with 31 digits.
 
     The integrator is a Taylor series of order 36 in pairs of doubles (`numerics.double_double_kernels`), about 40 µs
-    per step.  State and parameters are rescaled only by powers of two, which is exact.
+    per step.  State and parameters are not rescaled, and the time only by a power of two, which is exact.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ def double_double_orbit(
     start : array_like, shape (d,)
         Initial state at time 0.
     times : array_like, shape (n,)
-        Times, monotonic from 0 forward or backward.
+        Times, in units T, monotonic from 0 forward or backward.
 
     Returns
     -------
@@ -84,9 +84,9 @@ def double_double_orbit(
     Raises
     ------
     InvalidParameter
-        If a number is not finite, or the times are not monotonic.
+        If a number is not finite, the times are not monotonic, or the motion exceeds the range of doubles.
     WorkLimit
-        If the motion needs too many steps.
+        If the motion needs more than 100 000 steps or stops, or there are more than 200 000 times.
 
     Examples
     --------
@@ -109,7 +109,7 @@ def double_double_orbit(
         part = slice(first, first + _AT_ONCE)
         steps = body.system.double_double(here, begun, p, problem.scale, unit, t[part], left, out[part])
         require_steps(
-            steps, f"With 31 digits this motion needs more than {_MOST_STEPS} steps: choose a shorter time span."
+            steps, f"With 31 digits this motion stops, or needs over {_MOST_STEPS} steps: choose a shorter time span."
         )
         require_finite_states(out[part].real)
         here, begun, left = out[part][-1].copy(), float(t[part][-1]), left - steps

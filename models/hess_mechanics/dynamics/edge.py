@@ -1,8 +1,8 @@
 """Saddles on the boundary of two basins, whose stable manifolds bound them.
 
-Between two points in different basins the segment is halved until its ends part only after many crossings.  Meanwhile
-their orbits follow the boundary and approach a set that attracts within it: on a smooth boundary a saddle.  Newton's
-method starts from there.
+The segment between two points in different basins is halved until the orbits of its ends separate only after many
+crossings.  Until then they follow the boundary and approach a set that attracts within it: on a smooth boundary, a
+saddle.  Newton's method starts from there.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ __all__ = ["saddle_between"]
 
 _HALVINGS = 40
 _CROSSINGS = 30
-"""Crossings of an orbit on the boundary from which Newton's method may start."""
+"""Number of crossings of an orbit along the boundary from which Newton's method may start."""
 _MOST = 12
-"""Largest period of the saddle."""
+"""Largest period of a saddle."""
 
 
 def saddle_between(map_: Map, one: Array, other: Array, number_of: Callable[[Array], int]) -> PeriodicOrbit:
-    """Return a saddle on the boundary between two points in different basins.
+    """Return a saddle on the boundary of basins between two points in different basins.
 
     Parameters
     ----------
@@ -34,17 +34,17 @@ def saddle_between(map_: Map, one: Array, other: Array, number_of: Callable[[Arr
     one, other : ndarray, shape (2,)
         Points in different basins.
     number_of : callable
-        Function from a point to the number of its basin.
+        Function from a point (2,) to the number of its basin.
 
     Returns
     -------
     PeriodicOrbit
-        The saddle.
+        The saddle, of kind "saddle" or "saddle with reflection" and a period up to 12.
 
     Raises
     ------
     NotConverged
-        If no saddle is found, or the boundary is not smooth.
+        If no saddle is found, for example because the boundary is not smooth, or a point has no image.
     """
     a, b = np.asarray(one, float), one + difference(map_.turns, other, one)
     own = number_of(a)

@@ -41,8 +41,8 @@ def integrate_many(
 ) -> tuple[Array, Indices, Array]:
     """Return the states of many orbits at given times, in scaled units.
 
-    An orbit that could not be followed has the negative steps of `taylor_kernels.orbit_integrator`, and its last state
-    in the row of the next time.
+    An orbit that could not be followed has the negative steps of `taylor_kernels.orbit_integrator`, its last state in
+    the row of the next time, and NaN in the rows after it.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def integrate_many(
     longest : float
         Longest step.
     max_steps : int
-        Largest number of steps of one orbit.
+        Largest number of steps of each orbit.
     threads : int
         Number of threads.
 
@@ -68,7 +68,7 @@ def integrate_many(
     states : ndarray, shape (n, m, d)
         States of the orbits.
     steps : ndarray of int, shape (n,)
-        Steps of each orbit, or a negative code.
+        Steps of each orbit; `STEP_LIMIT_REACHED` or `STOPPED` if it could not be followed.
     ends : ndarray, shape (n,)
         Time that each orbit reached.
     """
@@ -96,8 +96,8 @@ def ensemble(
     """Return the orbits from several initial states, computed on all cores.
 
     Errors are measured as in `solve`, orbit by orbit.  Orbits that miss the promise of the level are recomputed with
-    smaller tolerances, down to the floor of double precision.  An orbit that cannot be followed to the last time ends
-    where it does, and the others are complete.
+    smaller tolerances, down to the floor of double precision.  An orbit that cannot be followed to the last time is
+    incomplete: its later states are NaN, and `Ensemble.reasons` says why.  The other orbits are not affected.
 
     Parameters
     ----------
@@ -124,9 +124,10 @@ def ensemble(
     Raises
     ------
     InvalidParameter
-        If a number is not finite, the times are not monotonic, or there is no initial state.
+        If a number is not finite, the times are not monotonic, there is no initial state, or `max_step` or `max_steps`
+        is not positive.
     WorkLimit
-        If the result would be too large.
+        If there are more than 200 000 times, or the result would have more than 20 million numbers.
 
     Examples
     --------
@@ -144,7 +145,7 @@ def ensemble(
     if count == 0:
         raise InvalidParameter("There are no initial states: give at least one.")
     if count * t.size * dimension > MAX_NUMBERS:
-        raise WorkLimit(f"{count} orbits at {t.size} times are too many: choose fewer orbits or fewer times.")
+        raise WorkLimit(f"{count} orbits at {t.size} times are too many: choose fewer, for at most 20 million numbers.")
     scaled_times = problem.times(t)
 
     longest, most_steps = as_max_step(max_step, problem), as_max_steps(max_steps)
@@ -218,14 +219,14 @@ def ensemble(
 class _Several(Protocol):
     @property
     def reasons(self) -> tuple[str, ...]:
-        """Why each motion is incomplete; empty for one that is complete."""
+        """Reason why each motion is incomplete; empty for one that is complete."""
 
 
 M = TypeVar("M", bound=_Several)
 
 
 def complete(motions: M) -> M:
-    """Return motions, all of which must be complete.
+    """Return the given motions if all of them are complete.
 
     Parameters
     ----------
@@ -240,7 +241,7 @@ def complete(motions: M) -> M:
     Raises
     ------
     WorkLimit
-        If one is incomplete, with its reason.
+        If a motion is incomplete; the message is the reason of the first such motion.
     """
     reason = next(filter(None, motions.reasons), None)
     if reason is not None:

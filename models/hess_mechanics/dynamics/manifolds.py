@@ -35,13 +35,13 @@ _FIRST = 4
 _CURVED = 1e-3
 """Distance from the saddle at which the curvature is measured; third orders and round-off are a millionth there."""
 _SIZES = tuple(0.05 * 0.5**k for k in range(16))
-"""Lengths δ of the first piece that are tried."""
+"""Lengths δ of the first piece that are tried, the longest first."""
 _STANDS = 1e-3
-"""A curve that grows by less than this fraction of the sagitta in a return has reached another saddle."""
+"""A curve that grows by less than this fraction of the sagitta in a return has come to a point: a periodic one."""
 _CHECKED = 6
-"""Points that a more accurate map recomputes."""
+"""Number of points that a more accurate map recomputes."""
 _FEET = 8
-"""Iterations for the foot of a perpendicular."""
+"""Largest number of iterations for the foot of a perpendicular."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class Manifold(Result):
     stable : bool
         True for the stable manifold.
     side : int
-        1 along the direction of the saddle, −1 against it.
+        1 along the eigenvector whose component of largest modulus is positive, −1 against it.
     multiplier : float
         Multiplier on the manifold, > 1, of F: the map (its inverse if `stable`) over one period of the saddle, or over
         two if the multiplier of one is negative.
@@ -76,7 +76,7 @@ class Manifold(Result):
     level : str
         Name of the accuracy level.
     point_at : callable
-        Function from τ to the point (2,), with angles in any turn.  Raises as the map.
+        Function from a finite τ to the point (2,), with angles in any turn; it raises the errors of the map.
     """
 
     names: tuple[str, ...]
@@ -104,7 +104,7 @@ class Manifold(Result):
         return Status.OK if self.error_estimate <= self.sagitta else Status.PROMISE_NOT_MET
 
     def labels(self) -> Labels:
-        """Return the points, labelled with the length along the curve.
+        """Return the points and their parameters τ, labelled with the length along the curve.
 
         Returns
         -------
@@ -158,7 +158,7 @@ class _Curve:
 
 
 def _begun(map_: Map, orbit: PeriodicOrbit, side: int, index: int) -> _Curve:
-    """Return the curve with the longest first piece that is right to the promise of the map.
+    """Return the curve with the longest first piece whose error is well below the promise of the map.
 
     Raises `InvalidParameter` if the orbit is not a saddle.
     """
@@ -171,8 +171,8 @@ def _begun(map_: Map, orbit: PeriodicOrbit, side: int, index: int) -> _Curve:
     big = int(np.argmax(np.abs(values)))
     if values.imag.any() or not abs(values[big]) > 1.0 + 1e-6 or abs(values[1 - big]) >= 1.0:
         raise InvalidParameter(
-            f"This {orbit.kind} has no such manifolds: choose a saddle, with one multiplier inside and one outside "
-            "the unit circle."
+            f"This orbit ({orbit.kind}) has no stable and unstable curves: choose a saddle, with one multiplier inside "
+            "and one outside the unit circle."
         )
     value, returns = float(values[big].real), orbit.period
     v = np.asarray(vectors[:, big].real, float)
@@ -229,31 +229,29 @@ def manifold(
     stable : bool, default False
         Return the stable manifold instead of the unstable one.
     side : {1, -1}, default 1
-        Leave the saddle along its direction (1) or against it (−1).
+        Leave the saddle along the eigenvector whose component of largest modulus is positive (1), or against it (−1).
     index : int, default 0
-        Index of the point of the saddle orbit from which the branch starts.
+        Index of the point of the saddle from which the branch starts, modulo its period.
     sagitta : float, default 1e-3
         Largest distance between the curve and the returned polyline, positive, in units of the coordinates.
     longest : float, default 0.1
         Longest chord of the polyline, positive, in units of the coordinates.
     most : int, default 4000
-        Largest number of points.
+        Number of points after which the branch ends.
     returns : int, default 2 000 000
-        Largest number of evaluations of the map.
+        Number of evaluations of the map after which the branch ends.
 
     Returns
     -------
     Manifold
-        The branch, as a polyline; it may end before `length`, with a reason.
+        The branch, as a polyline; it may end before `length`, see `Manifold.end_reason`.
 
     Raises
     ------
     InvalidParameter
-        If the orbit is not a saddle, or a number is out of range.
-    WorkLimit
-        If a return needs too many steps.
-    NotConverged
-        If the map has no inverse, or no image even close to the saddle.
+        If the orbit is not a saddle, a number is out of range, or the map does not have two coordinates.
+    ModelError
+        If the map, or its inverse for `stable`, has no image at a point of the saddle.
 
     Examples
     --------
@@ -268,7 +266,7 @@ def manifold(
             f"length = {length}, sagitta = {sagitta}, longest = {longest}: choose positive numbers and a finite length."
         )
     if side not in (-1, 1):
-        raise InvalidParameter(f"side = {side}: choose 1 (along the direction of the saddle) or −1 (against it).")
+        raise InvalidParameter(f"side = {side}: choose 1 (along the eigenvector of the saddle) or −1 (against it).")
     if len(getattr(map_, "turns", ())) != 2:
         raise InvalidParameter("This map does not have two coordinates: give the return map of a section that has two.")
     forwards = map_.inverse() if stable else map_
@@ -326,7 +324,7 @@ def _followed(
             middle = curve.point_at(0.5 * (tau + right))
             spent += max(1, math.floor(right)) * curve.returns
         except ModelError as error:
-            ended = f"At the length {total:.6g}, for what follows: {error}"
+            ended = f"At the length {total:.6g}; the map fails beyond it: {error}"
             break
         middle = here + difference(turns, middle, here)
         there = middle + difference(turns, there, middle)
@@ -384,14 +382,14 @@ def _error(curve: _Curve, points: Array, parameters: Array) -> float:
 
 @dataclass(frozen=True)
 class Intersection:
-    """Crossing of the manifolds of two saddles: a homoclinic or heteroclinic point.
+    """Intersection of the manifolds of one or two saddles: a homoclinic or heteroclinic point.
 
     Attributes
     ----------
     point : ndarray, shape (2,)
         The point.
     parameters : (float, float)
-        Parameter τ on each manifold.
+        Parameter τ of the point on each manifold.
     angle : float
         Angle between the manifolds, in radians, 0 to π/2.
     error : float
@@ -409,7 +407,7 @@ class Intersection:
 
 
 def crossings_of(one: Manifold, other: Manifold, most: int = 100) -> list[Intersection]:
-    """Return homoclinic or heteroclinic points, in the order of the first manifold.
+    """Return the intersections of two manifolds, in their order along the first one.
 
     Intersecting segments of the two polylines are the initial guesses for Newton's method on W_1(τ_1) = W_2(τ_2).  The
     saddles themselves are excluded; points closer together than their errors count once.
@@ -424,7 +422,7 @@ def crossings_of(one: Manifold, other: Manifold, most: int = 100) -> list[Inters
     Returns
     -------
     list of Intersection
-        The points.
+        The homoclinic or heteroclinic points; empty if the polylines do not intersect.
     """
     crossings: list[Intersection] = []
     for i, j in _meeting(one, other):
@@ -440,7 +438,7 @@ def crossings_of(one: Manifold, other: Manifold, most: int = 100) -> list[Inters
 
 
 def _meeting(one: Manifold, other: Manifold) -> list[tuple[int, int]]:
-    """Return the pairs of segments that intersect, except the first segments at the saddles."""
+    """Return the indices of the pairs of segments that intersect, except the first segments at the saddles."""
     a, b = one.points[1:], other.points[1:]
     pairs = []
     da, db = np.diff(a, axis=0), np.diff(b, axis=0)
@@ -453,6 +451,7 @@ def _meeting(one: Manifold, other: Manifold) -> list[tuple[int, int]]:
 
 
 def _refined(one: Manifold, other: Manifold, pair: tuple[int, int]) -> Intersection | None:
+    """Return the intersection near a pair of segments, by Newton's method; None if it fails or moves away from them."""
     ends = [np.array(curve.parameters[i : i + 2]) for curve, i in zip((one, other), pair, strict=True)]
     tau: Array = np.array([float(end.mean()) for end in ends])
     h = np.array([1e-4 * float(np.ptp(end)) for end in ends])
@@ -521,7 +520,7 @@ def heights_at(curve: Manifold, axis: int, value: float) -> Array:
     axis : int
         Index of the coordinate that has the value, 0 or 1.
     value : float
-        The value.
+        The value; angles count on over full turns, as in `Manifold.points`.
 
     Returns
     -------
@@ -537,13 +536,13 @@ def heights_at(curve: Manifold, axis: int, value: float) -> Array:
     change = np.flatnonzero((along[1:-1] <= 0.0) != (along[2:] <= 0.0)) + 1
     if not change.size:
         raise NotConverged(
-            f"This manifold does not reach {curve.names[axis]} = {value:g}: grow it to a greater length."
+            f"This manifold does not reach {curve.names[axis]} = {value:g}: choose a greater length, or another value."
         )
     return np.array([_height_on(curve, axis, value, int(i)) for i in change])
 
 
 def _height_on(curve: Manifold, axis: int, value: float, i: int) -> float:
-    """Return the other coordinate on the segment i."""
+    """Return the other coordinate where the segment i of a manifold has the value."""
     from scipy.optimize import brentq  # Imported here because the import takes 0.3 s.
 
     reference = curve.points[i]
@@ -556,9 +555,9 @@ def _height_on(curve: Manifold, axis: int, value: float, i: int) -> float:
 
 
 def split(unstable: Manifold, stable: Manifold, axis: int, value: float) -> tuple[float, float]:
-    """Return the distance between two manifolds where one coordinate has a given value.
+    """Return the signed distance between two manifolds where one coordinate has a given value.
 
-    If they pass there more than once, the two closest passages are compared.
+    If they have this value at several points, the two closest points are compared.
 
     Parameters
     ----------
@@ -572,14 +571,14 @@ def split(unstable: Manifold, stable: Manifold, axis: int, value: float) -> tupl
     Returns
     -------
     distance : float
-        Other coordinate of the unstable manifold minus that of the stable one.
+        Other coordinate of the unstable manifold minus that of the stable one; full turns of an angle are not removed.
     error : float
         Its estimated error, ≥ 0: the sum of the errors of both manifolds across their curves.
 
     Raises
     ------
     NotConverged
-        If one of them does not reach this value.
+        If one of the manifolds does not reach the value.
     """
     gaps = heights_at(unstable, axis, value)[:, None] - heights_at(stable, axis, value)
     closest = gaps.ravel()[int(np.argmin(np.abs(gaps)))]

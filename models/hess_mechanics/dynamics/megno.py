@@ -37,11 +37,11 @@ CHAOTIC = 3.0
 REGULAR = 2.5
 """Ȳ below this is regular; between the two limits the motion is undecided."""
 _SAMPLES = 2400
-"""Samples of ln|δ|; at least one per time 1/ν is needed."""
+"""A hundredth of the largest number of samples of ln|δ|, of which there is at least one per time 1/ν."""
 _LONGEST = _SAMPLES * 100
 """Longest time span, in units of 1/ν."""
 _FEW = 8
-"""Motions up to which a return to the start is looked for; the cells of a map start beside unstable periodic orbits."""
+"""Largest number of motions that are searched for a return; those of a map start beside unstable periodic orbits."""
 _SHARE = 4
 
 
@@ -56,12 +56,14 @@ class Megno(Result):
     values : ndarray, shape (n,)
         Ȳ of each motion; NaN if it ends before `duration`.
     divergence, divergence_error : ndarray, shape (n,)
-        Weighted mean of div ẏ over the last four fifths of the time, and its standard error, both in 1/T.
+        Weighted mean of div ẏ over the last four fifths of the time, with the opposite sign for a motion backward in
+        time, so that negative values always mean shrinking phase volume; and its standard error; both in 1/T.
     windows : ndarray, shape (n, 4)
         The same mean, and those over the first, middle and last half of that time.
     no_chaos : tuple of str
-        For each motion why it is not chaotic, whatever Ȳ is: it rests, escapes or closes, or its phase space has two
-        dimensions besides its integrals; empty where there is no such reason.
+        For each motion why it is not chaotic, whatever Ȳ is: it rests, escapes or closes, or its phase space has at
+        most two dimensions besides its integrals; empty where there is no such reason.  Whether a motion closes is
+        tested only where Ȳ > 3, and only for up to eight motions.
     ends : ndarray, shape (n,)
         Time up to which each motion was followed, positive, in units T; NaN if it is not known.
     reasons : tuple of str
@@ -90,16 +92,16 @@ class Megno(Result):
 
     @property
     def dissipative(self) -> Mask:
-        """True for each motion about which phase volume shrinks by more than three standard errors, shape (n,)."""
+        """True for each motion about which phase volume shrinks by more than three standard errors; shape (n,)."""
         return volume_sign(self.divergence, self.divergence_error) < 0
 
     def labels(self) -> Labels:
-        """Return Ȳ and the divergence of each motion.
+        """Return Ȳ, divergence, end and reasons of each motion.
 
         Returns
         -------
         Labels
-            Ȳ, the divergence and its error, the ends and the reasons over the motions.
+            Ȳ, the divergence and its error, `no_chaos`, the ends and the reasons over the motions.
         """
         return Labels(
             {},
@@ -117,9 +119,9 @@ class Megno(Result):
 
 
 def longest_duration(body: Body, start: Sequence[float] | Array) -> float:
-    """Return the longest time span of MEGNO for motions next to a state.
+    """Return a time span that MEGNO accepts for motions that start near a state.
 
-    A third is left as a reserve, because ν differs between neighbouring states.
+    It is two thirds of the limit at this state, because ν differs between neighbouring states.
 
     Parameters
     ----------
@@ -166,7 +168,7 @@ def megno(
     Returns
     -------
     Megno
-        Ȳ and the mean divergence of each motion; a motion that cannot be followed has a reason, see
+        Ȳ and the mean divergence of each motion; NaN and a reason for a motion that cannot be followed, see
         `ensemble.complete`.
 
     Raises
@@ -174,7 +176,7 @@ def megno(
     InvalidParameter
         If a number is not finite, or the time span is 0.
     WorkLimit
-        If the time span is too long.
+        If the time span is longer than 240 000/ν.
 
     References
     ----------
@@ -195,7 +197,7 @@ def megno(
     problem = Problem.of(body, states)
     if abs(duration) * problem.nu > _LONGEST:
         raise WorkLimit(
-            f"MEGNO takes too long for t = {plain(abs(duration), 4)}: choose at most {plain(_LONGEST / problem.nu, 4)}."
+            f"t = {plain(abs(duration), 4)} is too long for MEGNO: choose at most {plain(_LONGEST / problem.nu, 4)}."
         )
     count, size = problem.states.shape
     # Sample at least once per 1/ν, in twelve stretches after the first fifth.

@@ -39,7 +39,7 @@ class MegnoMap(Result):
     x, y : ndarray, shape (m,) and (n,)
         Centres of the cells.
     values : ndarray, shape (n, m)
-        Ȳ after the time `duration`; NaN where no motion crosses the section, or it ends before.
+        Ȳ after the time `duration`; NaN where no motion crosses the section, or the motion ends before.
     kind : ndarray of int, shape (n, m)
         0 not chaotic, 1 chaotic, plus 2 where phase volume shrinks by more than three standard errors; 4 where the
         motion or a neighbour ends earlier; −1 where no motion crosses the section.
@@ -61,12 +61,12 @@ class MegnoMap(Result):
     level: str
 
     def labels(self) -> Labels:
-        """Return MEGNO and kind, labelled with both coordinates.
+        """Return MEGNO, kind and end of each cell, labelled with both coordinates.
 
         Returns
         -------
         Labels
-            Both arrays over the cells.
+            The three arrays over the cells.
         """
         arrays = {"MEGNO": self.values, "kind": self.kind, "end": self.ends}
         facts = {"t": self.duration, "level": self.level}
@@ -122,11 +122,11 @@ def row_of_cells(
     section : PoincareSection
         The section.
     window : ((float, float), (float, float))
-        Corners of the window.
+        Corners of the window, see `Window`.
     cells : (int, int)
         Numbers (m, n) of cells across and up.
     row : int
-        Index of the row, from below.
+        Index of the row, from 0 for the lowest.
     duration : float
         Time span, nonzero, in units T; negative for backward in time.
     accuracy : str or Level
@@ -140,7 +140,7 @@ def row_of_cells(
     Raises
     ------
     InvalidParameter
-        If a number is not finite.
+        If a number is not finite, or the time span is 0.
     WorkLimit
         If the time span is too long.
     """
@@ -229,7 +229,7 @@ def require_plane(section: PoincareSection) -> None:
     """
     if len(section.names) != 2:
         raise InvalidParameter(
-            f"The section of this body has only the coordinate {section.names[0]}: choose a body with two."
+            f"This section has only the coordinate {section.names[0]}: choose a body whose section has two."
         )
 
 
@@ -251,7 +251,7 @@ def corners(section: PoincareSection, window: Window | None) -> Window:
     Raises
     ------
     InvalidParameter
-        If they are not finite, out of order or outside of the section.
+        If the corners are not finite, out of order or outside of the section, or it has only one coordinate.
     """
     require_plane(section)
     names, sides = section.names, section.window
@@ -272,14 +272,14 @@ def corners(section: PoincareSection, window: Window | None) -> Window:
 
 
 def time_of(section: PoincareSection, turns: float) -> float:
-    """Return the time of some typical turns of the motions on a section: `turns` × slowness/ν.
+    """Return the time that typical motions through a section take for a number of turns: `turns` × slowness/ν.
 
-    ν is the median, over points all over the section, of the frequency of the system.
+    ν is the median of the frequency of the system over the points of a 16 × 16 grid at which motions cross the section.
 
     Parameters
     ----------
     section : PoincareSection
-        The section.
+        A section with two coordinates.
     turns : float
         Number of turns.
 
@@ -291,12 +291,12 @@ def time_of(section: PoincareSection, turns: float) -> float:
     Raises
     ------
     OutsideRegion
-        If no motion crosses the section.
+        If no motion crosses the section at these points.
     """
     (x0, x1), (y0, y1) = section.window
     x, y = np.meshgrid(centres(x0, x1, _TRIED), centres(y0, y1, _TRIED))
     states, there = section.states_at(x.ravel(), y.ravel())
     if not there.any():
-        raise OutsideRegion("No motion of this energy crosses the section: choose a larger energy.")
+        raise OutsideRegion("No motion crosses this section: choose a larger energy, or other parameters.")
     nu = section.system.frequency(states[there].T, np.array(section.parameters))
     return float(turns * section.slowness / np.median(nu))

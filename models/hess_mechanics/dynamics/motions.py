@@ -1,4 +1,4 @@
-"""Motions of a system by named numbers: what the catalogue of computations knows of a system.
+"""Motions of a system as functions of named numbers, for the catalogue of computations.
 
 A module that defines `SYSTEM` has motions from any state.  `SECTION` beside it, or in the module of a section, gives
 motions that start at a point of that section.
@@ -48,16 +48,16 @@ _KNOWN: Mapping[str, Parameter] = {
 """Parameters and variables of the systems of the paper, by name."""
 _REDUCED = {one.name: one for one in known.REDUCED_OMEGA}
 _FREE = (-1e6, 1e6)
-"""Bounds of a number of a user's system."""
+"""Bounds of a parameter or variable of a user's system."""
 
 
 def with_default(of: Parameter, default: float, doc: str = "") -> Parameter:
-    """Return a parameter with another default.
+    """Return a copy of a parameter with another default.
 
     Parameters
     ----------
     of : Parameter
-        The parameter.
+        The original parameter.
     default : float
         The new default.
     doc : str, default ""
@@ -66,7 +66,7 @@ def with_default(of: Parameter, default: float, doc: str = "") -> Parameter:
     Returns
     -------
     Parameter
-        The changed parameter.
+        The copy.
     """
     return replace(of, default=default, doc=doc or of.doc)
 
@@ -97,7 +97,7 @@ def integer(name: str, symbol: str, default: float, low: float, high: float, doc
 
 @dataclass(frozen=True)
 class Motions:
-    """Motions of a system, by their numbers.
+    """Motions of a system as functions of named numbers: its parameters and the start.
 
     Attributes
     ----------
@@ -110,15 +110,16 @@ class Motions:
     parameters : tuple of Parameter
         Parameters of the body, and of the energy and plane of a section; their defaults are the example.
     point : tuple of Parameter
-        Where the motion starts: the state, or the coordinates of a point of the section.
+        Start of the motion: the variables of the state, or the coordinates of a point of the section.
     start : callable
-        Function from the values of both to body and state; it raises a `ModelError` if there is no motion.
-    section : callable or None, optional
-        Function from the values of the parameters to the section; None for motions that start anywhere.
+        Function from the values of `parameters` and `point`, by name, to body and state; it raises a `ModelError` if
+        there is no motion.
+    section : callable or None, default None
+        Function from the values of `parameters`, by name, to the section; None for motions that start at any state.
     source : str, default ""
-        Label of the equations in the paper.
+        Labels of the equations in the paper.
     period : int, default 1
-        Number of returns of the saddle near the point, for examples.
+        Period, as a number of returns, of the saddle near the default point, for examples.
     """
 
     name: str
@@ -133,7 +134,7 @@ class Motions:
 
 
 def _parameter(system: System, name: str, default: float) -> Parameter:
-    """Return the parameter of this name, without a description for a user's system."""
+    """Return the parameter of this name with a default; for a user's system its name is its only description."""
     own = _KNOWN if system.labels else {}
     parameter = (_REDUCED if system.name == "hess" else {}).get(name) or own.get(name)
     if parameter is not None:
@@ -150,12 +151,12 @@ def body_parameters(system: System, *values: float) -> tuple[Parameter, ...]:
     system : System
         The system.
     *values : float
-        Defaults; without any those of the example.
+        Defaults, one for each parameter of the system.  By default those of the system's example.
 
     Returns
     -------
     tuple of Parameter
-        One parameter for each parameter of the system.
+        The parameters, in the order of `System.parameters`.
     """
     return tuple(
         _parameter(system, name, value)
@@ -174,7 +175,7 @@ def state_motions(system: System) -> Motions:
     Returns
     -------
     Motions
-        The motions.
+        The motions; their `start` normalises a vector γ or n at the end of the state to length 1.
     """
     names = system.arguments
     point = tuple(_parameter(system, name, value) for name, value in zip(names, system.example[0], strict=True))
@@ -199,7 +200,7 @@ def section_motions(
     source: str = "",
     period: int = 1,
 ) -> Motions:
-    """Return the motions that start at the points of a section; the arguments are those of `Motions`.
+    """Return the motions that start at the points of a section.
 
     Parameters
     ----------
@@ -212,13 +213,13 @@ def section_motions(
     point : tuple of Parameter
         Coordinates of the point.
     section : callable
-        Function from the values of the parameters to the section.
+        Function from the values of the parameters, by name, to the section.
     system : System
         The equations of motion.
     source : str, default ""
-        Label of the equations in the paper.
+        Labels of the equations in the paper.
     period : int, default 1
-        Number of returns of the saddle near the default point.
+        Period, as a number of returns, of the saddle near the default point, for examples.
 
     Returns
     -------
@@ -244,7 +245,8 @@ def section_of(system: System) -> Motions | None:
     Returns
     -------
     Motions or None
-        The motions; None if the system has no such section.
+        The motions; None if the system has a single variable, no such section, or a parameter with the name of an
+        integral or of a coordinate of the section.
     """
     from hess_mechanics.dynamics.variable_section import VariableSection, variable_section
 

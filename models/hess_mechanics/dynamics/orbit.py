@@ -43,11 +43,11 @@ MAX_STEPS = 2_000_000
 MAX_SAMPLES = 200_000
 _MOST_STEPS = 2**62
 ESCAPED, _SHOWN = 1e9, 6
-"""Size, in units in which the start is O(1), of a variable that escapes; variables shown in a message."""
+"""Size from which a variable escapes, in units in which the start is O(1); number of variables in a message."""
 LARGEST = 10.0
-"""Largest variable, in the same units, of the states that are kept of a motion that ends."""
+"""Largest size of a variable, in the same units, in the states that are kept of a motion that ends early."""
 _AHEAD = 1e-9
-"""Time after the end of a motion at which its field is tried."""
+"""Time after the end of a motion, in scaled units, at which the field is evaluated to find the reason."""
 _SHORTEST = 1e-290
 """Shortest time span for rates: divided by a shorter one, the round-off of a zero overflows."""
 
@@ -58,25 +58,25 @@ def as_times(times: float | Sequence[float] | Array) -> Array:
     Parameters
     ----------
     times : float or array_like, shape (n,)
-        Times, monotonic from 0.
+        Times, monotonic from 0 forward or backward; equal times are allowed.
 
     Returns
     -------
     ndarray, shape (n,)
-        The times.
+        The times; n = 1 for a single number.
 
     Raises
     ------
     InvalidParameter
-        If a time is not finite, or they are not monotonic from 0.
+        If there is no time, a time is not finite, or the times are not one-dimensional or not monotonic from 0.
     WorkLimit
-        If there are more than `MAX_SAMPLES`.
+        If there are more than 200 000 times.
     """
     t = np.array(times, dtype=float, ndmin=1)
     if t.ndim != 1 or t.size == 0 or not np.all(np.isfinite(t)):
-        raise InvalidParameter("The times are empty or not finite: give one or more finite numbers.")
+        raise InvalidParameter("The times are empty, not finite or not a list: give one or more finite numbers.")
     if t.size > MAX_SAMPLES:
-        raise WorkLimit(f"{t.size} times are too many: at most {MAX_SAMPLES} are allowed.")
+        raise WorkLimit(f"{t.size} times are too many: choose at most {MAX_SAMPLES}.")
     before = np.concatenate(([0.0], t[:-1]))
     if np.any(t < before) and np.any(t > before):
         raise InvalidParameter("The times are not monotonic: give increasing times from 0 on, or decreasing ones.")
@@ -89,7 +89,7 @@ def as_duration(duration: float, what: str) -> float:
     Parameters
     ----------
     duration : float
-        Time, nonzero; negative: backward.
+        Duration, nonzero; negative for backward in time.
     what : str
         Name of the quantity that needs it, for the message.
 
@@ -101,7 +101,7 @@ def as_duration(duration: float, what: str) -> float:
     Raises
     ------
     InvalidParameter
-        If it is 0, too short or not finite.
+        If the duration is 0, shorter than 1e-290 or not finite.
     """
     if not _SHORTEST <= abs(duration) < math.inf:
         raise InvalidParameter(
@@ -121,14 +121,15 @@ def require_steps(steps: int, too_long: str, where: Callable[[], WorkLimit | Non
     too_long : str
         Message for a kernel that ran out of steps.
     where : callable, optional
-        Function that returns the error of a motion that stopped, with its state; None if only a neighbour did.
+        Function that returns the error of a motion that stopped, or None if only a neighbour stopped.  By default the
+        error is a `MotionEnds` that gives no state.
 
     Raises
     ------
     WorkLimit
         If the kernel ran out of steps.
     MotionEnds
-        If the motion stopped.
+        If the motion or a neighbour stopped; the error of `where` may also be a plain `WorkLimit`.
     """
     if steps == STEP_LIMIT_REACHED:
         raise WorkLimit(too_long)
@@ -179,7 +180,7 @@ def precise_run(problem: Problem, state: Array, times: Array) -> tuple[int, floa
     end : float
         Time reached.
     states : ndarray, shape (n, d)
-        The states; 0 beyond the time reached.
+        The states.  If the motion stopped, the row of the next time holds its last state, and later rows are 0.
     """
     system, out = problem.system, np.zeros((times.size, state.size))
     longest = system.longest_step(PRECISE, float(times[-1]))
@@ -206,7 +207,8 @@ def end_error(problem: Problem, code: int, t: float, state: Array, max_steps: in
     Returns
     -------
     WorkLimit
-        The time, and the variable or operation that ended the motion.
+        The error: a plain `WorkLimit` if the steps were used up, otherwise a `MotionEnds`, whose message gives the time
+        reached and the variable or operation that ended the motion.
     """
     system, time = problem.system, t / problem.nu
     at = f"t = {time:.6g}"
@@ -259,7 +261,7 @@ def as_max_steps(max_steps: int) -> int:
     Raises
     ------
     InvalidParameter
-        If it is not a positive integer.
+        If the limit is not a positive integer.
     """
     return as_integer("max_steps", max_steps, 1, _MOST_STEPS)
 
@@ -270,7 +272,7 @@ def as_max_step(max_step: float | None, problem: Problem) -> float:
     Parameters
     ----------
     max_step : float or None
-        Longest step in the user's unit, positive; None for no limit.
+        Longest step in the user's unit of time, positive; None for no limit.
     problem : Problem
         The equations of motion and their units.
 
@@ -282,7 +284,7 @@ def as_max_step(max_step: float | None, problem: Problem) -> float:
     Raises
     ------
     InvalidParameter
-        If it is not positive.
+        If the step is not positive.
     """
     if max_step is None:
         return math.inf
@@ -314,7 +316,7 @@ def require_finite_neighbours(*results: Array) -> None:
     Parameters
     ----------
     *results : ndarray
-        Results of these equations.
+        Results of the variational equations.
 
     Raises
     ------
@@ -365,7 +367,7 @@ def drift_of(system: System, start: Array, states: Array, parameters: Array) -> 
     Returns
     -------
     dict of str to float
-        The drifts, by the names of the integrals.
+        Largest drift of each integral over all states, by name; 0 without states, NaN if a state is NaN.
     """
     drifts = drifts_along(system, start, states, parameters)
     return {name: float(np.max(drift, initial=0.0)) for name, drift in drifts.items()}
@@ -422,10 +424,12 @@ def solve(
     accuracy : str or Level, default "precise"
         Accuracy level: "draft", "standard", "precise", "reference", or a level of your own.
     samples : int, default 500
-        Number of evenly spaced times if `times` is a single number.
+        Number of evenly spaced times from 0 to the last time, both included, if `times` is a single number; 2 to
+        200 000.
     max_step : float, optional
-        Longest step, in the unit of time.  By default a hundredth of the time span for a field with functions, else
-        none.  Choose it shorter than the shortest pulse of the field: see Notes.
+        Longest step, positive, in units T.  By default there is no limit, except that in a field with functions a step
+        is never longer than a hundredth of the time span.  Choose `max_step` shorter than the shortest pulse of the
+        field: see Notes.
     max_steps : int, default 2 000 000
         Largest number of steps of all runs together.
 
@@ -437,9 +441,10 @@ def solve(
     Raises
     ------
     InvalidParameter
-        If a number is not finite, or the times are not monotonic.
+        If a number is not finite or out of range, the times are not monotonic, or the motion exceeds the range of
+        double precision.
     WorkLimit
-        If the orbit needs too many steps or has too many samples.
+        If the orbit needs more than `max_steps` steps, or there are more than 200 000 times.
     MotionEnds
         If the motion escapes to infinity, or reaches a state without finite rates.
 

@@ -40,15 +40,15 @@ MAX_VALUES, MAX_CROSSINGS = 2000, 20_000
 SAME = 1e-4
 """Points closer than this are the same point of a periodic orbit: near a doubling, errors decay slowly."""
 _PROMISES = 3.0
-"""The same tolerance in errors of the map: a long orbit moves by some errors when it is projected to its integrals."""
+"""Another tolerance, in errors of the map; the larger one counts.  Projecting to the integrals moves long orbits."""
 _SETTLING = 0.8
 """An orbit is still settling if its distance from closing falls below this fraction from one half to the next."""
 _WATCHED = 50
-"""Crossings after which a transient is looked at."""
+"""Number of crossings after which the end of a transient is tested again."""
 _CLOSER, _CLOSE = 1e-3, 0.1
 """A transient ends where an orbit closes this much better than at its start, and to this share of the map's error."""
 _AMPLITUDES = 0.4 * 0.4 ** np.arange(6, -1, -1)
-"""Distances from a flip at which the orbit of twice the period is searched, the nearest first."""
+"""Distances from a flip at which the orbit of twice the period is searched for, the nearest first."""
 _NEAR = 3.0
 """An orbit farther away than this multiple of the distance is a different one."""
 _AHEAD = (0.25, 0.05, 0.01)
@@ -68,7 +68,7 @@ class OrbitMap(Map, Protocol):
 
     @property
     def preserves_volume(self) -> bool:
-        """True if the map preserves a volume and has no attractors."""
+        """True if the map preserves a volume and therefore has no attractors."""
 
     def orbit(self, point: Array, count: int) -> Array:
         """Return the next points of an orbit.
@@ -83,7 +83,7 @@ class OrbitMap(Map, Protocol):
         Returns
         -------
         ndarray, shape (n, d)
-            The points; n < `count` if the motion does not come back.
+            The points, without `point` itself; n < `count` if the motion does not come back.
         """
 
 
@@ -96,19 +96,19 @@ class Diagram(Result):
     parameter : str
         Name of the parameter.
     names : tuple of str
-        Names of the coordinates.
+        Names of the coordinates; empty if there is no map at any value.
     values : ndarray, shape (n,)
         Values of the parameter, in the order in which they were visited.
     points : tuple of ndarray, shape (m, d)
-        Points at each value; empty if the motion does not return.
+        Points at each value, m = 0 if there is no map or the motion does not return often enough.
     periods : ndarray of int, shape (n,)
-        Period at each value; 0 if none up to 64 is found.
+        Period at each value; 0 if none is found up to 64 and up to a third of the points.
     ends : ndarray, shape (n, d)
-        Last point at each value; NaN if there is none.
+        Last point at each value; NaN if there are no points.
     conservative : ndarray of bool, shape (n,)
-        True if volume is preserved: the points are then a single orbit, which attracts nothing.
+        True if the map preserves volume: the points are then a part of a single orbit, which attracts nothing.
     level : str
-        Name of the accuracy level.
+        Name of the accuracy level; empty if there is no map at any value.
     """
 
     parameter: str
@@ -121,7 +121,7 @@ class Diagram(Result):
     level: str
 
     def labels(self) -> Labels:
-        """Return all points, labelled with the value of the parameter.
+        """Return all points, each labelled with its value of the parameter.
 
         Returns
         -------
@@ -154,18 +154,18 @@ def period_of(
     points : ndarray, shape (n, d)
         Points of the orbit.
     promise : float, default 0.0
-        Error of the points.
-    most : int, default MAX_PERIOD
+        Error of the points, ≥ 0.
+    most : int, default 64
         Largest period tried.
-    same : float, default SAME
-        Distance within which two points count as equal.
+    same : float, default 1e-4
+        Distance within which two points count as equal, but at least three times `promise`.
 
     Returns
     -------
     period : int
-        The period; 0 if there is none.
+        The period; 0 if the orbit shows none, or seems to double its period only because it is still settling.
     settled : bool
-        True if the orbit has settled.
+        True if the orbit has settled; False for fewer than three points.
     """
     most = min(most, len(points) // 3)
     if most < 1:
@@ -206,38 +206,40 @@ def diagram_over(
     values : array_like, shape (n,)
         Values of the parameter, in the order in which they are visited; there and back they show hysteresis.
     start : array_like, shape (d,)
-        Point where the orbit starts.
+        Point where the orbit starts at the first value.
     transient : int, default 200
-        Largest number of crossings discarded at each value.  The transient ends as soon as the orbit has come a
-        thousand times closer to a periodic one than it was.
+        Largest number of crossings discarded at each value, ≥ 0.  The transient ends as soon as the orbit has come a
+        thousand times closer to a periodic one than it was, and to a tenth of the error of the map.
     crossings : int, default 64
-        Crossings shown at each value.
+        Number of crossings shown at each value, at least 1; `transient` + `crossings` is at most 20 000.
     follow : bool, default True
-        Start each value from the last point of the one before; from `again` if that fails.
+        Start each value from the last point of the one before, or from `again` if that fails.  If False, start every
+        value from `again`.
     again : array_like, shape (d,), optional
         Point where the orbit starts again.  By default `start`.
 
     Returns
     -------
     Diagram
-        The points and the period at each value.
+        The points and the period at each value, with a gap at values without a map or without returns.
 
     Raises
     ------
     InvalidParameter
-        If the values are not finite, or too many.
+        If there are no values or more than 2000, or one is not finite.
     WorkLimit
-        If there are too many crossings.
+        If `transient` or `crossings` is out of range, or the map needs too many steps.
     """
     along = np.array(values, float, ndmin=1)
     if not (along.ndim == 1 and np.all(np.isfinite(along)) and 1 <= along.size <= MAX_VALUES):
         raise InvalidParameter(
-            f"There are {along.size} values of the parameter, or one is not finite: give 1 to {MAX_VALUES} finite ones."
+            f"The values of the parameter ({along.size}) are too few, too many, not finite or not one-dimensional: "
+            f"give 1 to {MAX_VALUES} finite ones."
         )
     if not (crossings >= 1 and transient >= 0 and transient + crossings <= MAX_CROSSINGS):
         raise WorkLimit(
-            f"transient + crossings = {transient} + {crossings} per value: choose at least one crossing, and together "
-            f"at most {MAX_CROSSINGS}."
+            f"transient = {transient} and crossings = {crossings} are out of range: choose a transient of at least 0 "
+            f"and at least 1 crossing, together at most {MAX_CROSSINGS}."
         )
     first = np.array(start, float)
     restart = first if again is None else np.array(again, float)
@@ -286,7 +288,7 @@ def diagram_over(
 
 
 def _after_transient(map_: OrbitMap, origin: Array, transient: int, crossings: int) -> Array:
-    """Return `crossings` points of an orbit after its transient; fewer if the motion stays away."""
+    """Return `crossings` points of an orbit after its transient; fewer if the motion stops returning."""
     orbit = np.asarray(origin, float)[None]
     while len(orbit) <= transient and not _has_approached(map_, orbit):
         piece = map_.orbit(orbit[-1], min(_WATCHED, transient + 1 - len(orbit)))
@@ -297,7 +299,7 @@ def _after_transient(map_: OrbitMap, origin: Array, transient: int, crossings: i
 
 
 def _has_approached(map_: OrbitMap, orbit: Array) -> bool:
-    """Return True if the points (n, d) have come a thousand times closer to a periodic orbit than they were."""
+    """Return True if the points (n, d) close a thousand times better than before, and to a tenth of the map's error."""
     for m in range(1, min(_WATCHED, len(orbit) - 1) // 3 + 1):
         steps = np.abs(difference(map_.turns, orbit[m:], orbit[:-m])).max(axis=1)
         first, last = float(steps[:m].max()), float(steps[-m:].max())
@@ -307,9 +309,9 @@ def _has_approached(map_: OrbitMap, orbit: Array) -> bool:
 
 
 def first_doubling(parts: Sequence[Diagram]) -> tuple[float, Array, float] | None:
-    """Return the first doubling of the smallest period in a diagram.
+    """Return the first doubling of the smallest period that doubles in a diagram.
 
-    Next to a doubling orbits settle slowly, so that a few values between may have no period.
+    Next to a doubling orbits settle slowly, so that up to two values in between may have no period.
 
     Parameters
     ----------
@@ -319,8 +321,8 @@ def first_doubling(parts: Sequence[Diagram]) -> tuple[float, Array, float] | Non
     Returns
     -------
     (float, ndarray, float), or None
-        Value before the doubling, the points (m, d) there, and the last value in that direction; None if no period
-        doubles between neighbours.
+        Value before the doubling, the points (m, d) of the orbit there, and the last value in the direction of the
+        search; None if no period doubles.
     """
     known = [
         one for part in parts for one in zip(part.values.tolist(), part.periods.tolist(), part.points, strict=True)
@@ -351,7 +353,7 @@ class Cascade(Result):
     values : ndarray, shape (k,)
         Values of the parameter at the doublings.
     errors : ndarray, shape (k,)
-        Estimated errors of the values.
+        Estimated errors of the values, ≥ 0.
     periods : ndarray of int, shape (k,)
         Period before each doubling.
     points : tuple of ndarray, shape (m, d)
@@ -373,7 +375,7 @@ class Cascade(Result):
 
     @property
     def error_estimate(self) -> float:
-        """Largest estimated error of a value."""
+        """Largest estimated error of a value; 0 without doublings."""
         return float(self.errors.max(initial=0.0))
 
     @property
@@ -384,7 +386,7 @@ class Cascade(Result):
 
     @property
     def ratio_errors(self) -> Array:
-        """Errors of the ratios, from the errors of the values."""
+        """Errors of the ratios, shape (k − 2,), propagated from the errors of the values."""
         steps, off = np.abs(np.diff(self.values)), self.errors[1:] + self.errors[:-1]
         return np.asarray(np.abs(self.ratios) * (off[:-1] / steps[:-1] + off[1:] / steps[1:]))
 
@@ -396,12 +398,12 @@ class Cascade(Result):
         return float(self.values[-1] + (self.values[-1] - self.values[-2]) / (self.ratios[-1] - 1.0))
 
     def labels(self) -> Labels:
-        """Return periods, values, errors and ratios, labelled with the number of the doubling.
+        """Return the values and ratios with their errors, labelled with the period before each doubling.
 
         Returns
         -------
         Labels
-            The arrays over the doublings.
+            The arrays over the doublings; the ratios are NaN at the first and the last one.
         """
         along = ("doubling",)
         ratio, off = np.full((2, len(self.values)), np.nan)
@@ -437,14 +439,14 @@ def cascade(
     orbit : PeriodicOrbit
         A periodic orbit at λ = `start`.
     start, end : float
-        First and last value of λ.
+        Values of λ between which doublings are searched for.
     doublings : int, default 6
         Largest number of doublings.
 
     Returns
     -------
     Cascade
-        The doublings with their errors.
+        The doublings with their errors; possibly none, see `Cascade.end_reason`.
 
     Raises
     ------

@@ -38,9 +38,9 @@ __all__ = [
 MAX_PERIOD = 64
 _ITERATIONS = 40
 _TRIED = 6
-"""Number of periods that Newton's method tries, those at which the orbit comes back closest."""
+"""Largest number of guesses besides the start: those from which the orbit comes back closest."""
 _FOLLOWED = 8
-"""Periods for which an orbit is followed to find where it comes back closest."""
+"""Number of periods for which an orbit is followed to find where it comes back closest."""
 _FAR = 1e6
 _ROUNDING = 2.3e-16
 _DIFFERENCES = 5e-12
@@ -128,7 +128,7 @@ class Map(Protocol):
         """
 
     def symmetries_of(self, points: Array, near: float) -> Sequence[str]:
-        """Return the symmetries that take an orbit to itself.
+        """Return the symmetries of the map that take an orbit to itself.
 
         Parameters
         ----------
@@ -154,7 +154,7 @@ class Map(Protocol):
 
 
 def units_of(names: Sequence[str]) -> dict[str, str]:
-    """Return the units of the coordinates of a section; canonical coordinates have none.
+    """Return the units of the coordinates of a section; other coordinates, such as canonical ones, are left out.
 
     Parameters
     ----------
@@ -164,14 +164,14 @@ def units_of(names: Sequence[str]) -> dict[str, str]:
     Returns
     -------
     dict of str to str
-        Units by name.
+        Units by the names of the coordinates: "rad", or "1" for L/G.
     """
     units = {"l": "rad", "L/G": "1", "ψ": "rad", "δ": "rad", "φ": "rad"}
     return {name: units[name] for name in names if name in units}
 
 
 def difference(turns: Sequence[float], a: Array, b: Array) -> Array:
-    """Return the difference a − b, with differences of angles reduced to half a turn.
+    """Return the difference a − b, with differences of angles reduced to at most half a turn either way.
 
     Parameters
     ----------
@@ -221,17 +221,17 @@ class Shot:
         return np.asarray(J.reshape(m * d, m * d))
 
     def step(self, family: float = _FAMILY) -> Array:
-        """Return Newton's step; if the Jacobian is singular, the shortest step.
+        """Return Newton's step; if the Jacobian is singular, the shortest least-squares step.
 
         Parameters
         ----------
-        family : float, default _FAMILY
-            Singular values below this, relative to the largest one or 1, count as 0.
+        family : float, default 1e-9
+            Singular values count as 0 up to this fraction of the largest one, or of 1 if that is larger.
 
         Returns
         -------
         ndarray, shape (m, d)
-            The step −J⁻¹ times the residuals.
+            The step −J⁻¹ times the residuals, with the pseudoinverse if J is singular.
         """
         u, values, v = np.linalg.svd(self.jacobian)
         nonzero = values > family * max(1.0, float(values[0]))
@@ -240,7 +240,7 @@ class Shot:
 
     @property
     def size(self) -> float:
-        """Largest residual."""
+        """Largest absolute value of a residual."""
         return float(np.abs(self.residuals).max())
 
 
@@ -269,10 +269,10 @@ def shoot(map_: Map, points: Array) -> Shot:
 
 
 def multipliers_of(derivatives: Array) -> tuple[Complex, float, float]:
-    """Return the multipliers of a periodic orbit, and trace and determinant of their matrix.
+    """Return the multipliers of a periodic orbit, and the trace and determinant of its matrix M.
 
-    The matrix M is the product of the derivatives.  Its smaller eigenvalue comes from the product of the determinants,
-    because M itself loses it if the other one is large.
+    M is the product of the derivatives.  Its smaller eigenvalue is computed from the product of their determinants,
+    because M itself loses its digits if the other one is large.
 
     Parameters
     ----------
@@ -330,7 +330,7 @@ def kind_of(multipliers: Complex, error: float) -> str:
     multipliers : ndarray of complex, shape (d,)
         The multipliers, the largest first.
     error : float
-        Their error; borders between types that are closer count as reached.
+        Their error, ≥ 0; a multiplier this close to the border between two types counts as on it.
 
     Returns
     -------
@@ -364,7 +364,7 @@ class PeriodicOrbit(Result):
     points : ndarray, shape (m, d)
         Points of the orbit in order, where m is the least period.
     multipliers : ndarray of complex, shape (d,)
-        Multipliers, the largest first.
+        Multipliers, the one of largest modulus first.
     kind : str
         "saddle", "saddle with reflection" (negative unstable multiplier), "stable node", "unstable node", "stable
         focus", "unstable focus", "elliptic", "parabolic" (multiplier 1: a fold or a family) or "parabolic with
@@ -374,7 +374,7 @@ class PeriodicOrbit(Result):
     multiplier_error : float
         Estimated error of the multipliers, ≥ 0.
     condition : float
-        Condition number of Newton's equations.
+        Condition number of the Jacobian of Newton's equations, without its zero singular values.
     iterations : int
         Iterations of Newton's method.
     level : str
@@ -382,11 +382,12 @@ class PeriodicOrbit(Result):
     status : Status
         How the computation ended.
     symmetric : tuple of str
-        Symmetries of the map that take the orbit to itself.
+        Names of the symmetries of the map that take the orbit to itself; empty also where they were not computed, as by
+        `find_periodic`.
     time : float
-        Time of one period, in units T; NaN if the map does not know it.
+        Time of one period, positive, in units T; NaN if the map does not know it.
     time_error : float
-        Estimated error of this time, ≥ 0, in units T.
+        Estimated error of this time, ≥ 0, in units T; NaN if the time is.
     """
 
     names: tuple[str, ...]
@@ -409,12 +410,12 @@ class PeriodicOrbit(Result):
         return len(self.points)
 
     def labels(self) -> Labels:
-        """Return the points of the orbit, with its type and multipliers.
+        """Return the points of the orbit, labelled with the number of the return, and its properties.
 
         Returns
         -------
         Labels
-            The coordinates over the returns.
+            The coordinates over the returns, with type, multipliers, time and errors.
         """
         multipliers = {f"multiplier {i + 1}": _shown(complex(one)) for i, one in enumerate(self.multipliers)}
         return Labels(
@@ -494,23 +495,27 @@ def find_periodic(
     start : array_like, shape (d,) or (m, d)
         Initial guess.
     period : int, optional
-        Least period.  By default the periods up to `most` at which the orbit comes back closest are tried.
+        Least period, at least 1.  By default the periods up to `most` at which the orbit comes back closest are tried.
+        Several points determine the period themselves: m or one of its divisors.
     most : int, default 12
-        Largest period tried.
+        Largest period tried if `period` is not given.
     near : bool, default False
-        Search only from the start itself, not from later points of its orbit that come back closer.
+        Search only from the start itself, not from later points of its orbit that come back closer.  Without `period`,
+        only the period at which the orbit comes back closest is tried.
 
     Returns
     -------
     PeriodicOrbit
-        The orbit.
+        The orbit, with its least period and without its symmetries.
 
     Raises
     ------
     InvalidParameter
-        If the start does not have finite coordinates.
+        If the start does not have finite coordinates of the right number.
     NotConverged
         If no orbit is found.
+    ModelError
+        If the more accurate map that measures the error has no image at a point of the orbit.
     """
     points = np.array(start, float, ndmin=2)
     if points.ndim != 2 or points.shape[1] != len(map_.turns) or not np.all(np.isfinite(points)):
@@ -551,7 +556,8 @@ def _guesses(map_: Map, point: Array, period: int | None, most: int, near: bool)
     orbit = images_of(map_, point, period - 1 if near else (_FOLLOWED + 1) * period)
     if len(orbit) < period:
         raise NotConverged(
-            f"From here a motion returns only {len(orbit) - 1} times: start elsewhere for an orbit of period {period}."
+            f"The number of returns from here is {len(orbit) - 1}, too few for an orbit of period {period}: start "
+            "elsewhere, or choose a smaller period."
         )
     # Start from the point itself, and from the points whose images come back closest.
     later = np.argsort(_closeness(map_, orbit[period:], orbit[:-period]), kind="stable")
@@ -564,7 +570,7 @@ def _closeness(map_: Map, a: Array, b: Array) -> Array:
 
 
 def images_of(map_: Map, point: Array, count: int) -> Array:
-    """Return a point and its images, as far as they exist.
+    """Return a point and its images, up to the first one that does not exist or has a coordinate beyond 1e6.
 
     Parameters
     ----------
@@ -573,17 +579,17 @@ def images_of(map_: Map, point: Array, count: int) -> Array:
     point : ndarray, shape (d,)
         The point.
     count : int
-        Number of iterations.
+        Largest number of images.
 
     Returns
     -------
     ndarray, shape (n, d)
-        The point and its images, n ≤ count + 1.
+        The point and its images, 1 ≤ n ≤ count + 1.
 
     Raises
     ------
     NotConverged
-        If the point itself has no image.
+        If the map raises an error at the point itself.
     """
     orbit = [point]
     try:

@@ -47,7 +47,7 @@ _ROOM = 1000
 _PARTS = 8
 """Time intervals into which a section of many orbits is divided."""
 _BEFORE = 1e-6
-"""Time before the end of a motion, in units in which its rates are O(1), after which its crossings do not count."""
+"""Crossings closer than this to the end of a motion, in units of 1/ν, do not count."""
 _SHARE = 4
 """Orbits per task of the thread pool."""
 
@@ -68,7 +68,7 @@ class Plane:
     Raises
     ------
     InvalidParameter
-        If the normal is zero or not finite, or `sense` is another number.
+        If the normal is zero, the normal or the offset is not finite, or `sense` is not 1, −1 or 0.
     """
 
     normal: tuple[float, ...]
@@ -78,8 +78,8 @@ class Plane:
     def __post_init__(self) -> None:
         if not (all(map(math.isfinite, self.normal)) and any(self.normal) and math.isfinite(self.offset)):
             raise InvalidParameter(
-                "The normal of the plane is 0, or the normal or offset is not finite: give a nonzero normal and finite "
-                "numbers."
+                "The normal of the plane is 0, or the normal, value or offset is not finite: give a nonzero normal and "
+                "finite numbers."
             )
         if self.sense not in (-1, 0, 1):
             raise InvalidParameter(
@@ -92,7 +92,7 @@ class Plane:
         Parameters
         ----------
         state : ndarray, shape (d,)
-            Any state.
+            Any state; the normal does not depend on it.
 
         Returns
         -------
@@ -102,7 +102,7 @@ class Plane:
         return np.array(self.normal)
 
     def crossing_kernel(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
-        """Return the crossing kernel with the plane in the units of a problem.
+        """Return the crossing kernel of a system, and the plane in the scaled units of a problem.
 
         Parameters
         ----------
@@ -118,7 +118,7 @@ class Plane:
         normal : ndarray, shape (d,)
             Normal vector of length 1.
         offset : float
-            Offset for this normal.
+            Offset for this normal, in scaled units.
 
         Raises
         ------
@@ -134,7 +134,7 @@ class Plane:
         length = float(np.linalg.norm(normal))
         offset = self.offset / largest / length
         if not math.isfinite(offset):
-            raise InvalidParameter("The offset of the plane is too large for its normal: choose a smaller one.")
+            raise InvalidParameter("The offset of the plane is too large for its normal: choose a smaller offset.")
         return system.crossing, normal / length, offset
 
 
@@ -146,15 +146,15 @@ class AnglePlane:
     ----------
     index : int
         Index of the angle among the variables.
-    value : float, default 0
-        The value, in radians.
+    value : float, default 0.0
+        The value, any finite number, in radians.
     sense : {1, -1, 0}, default 1
         Crossings that count: with increasing angle (1), with decreasing angle (−1), or both (0).
 
     Raises
     ------
     InvalidParameter
-        If the value is not finite, or `sense` is another number.
+        If the value is not finite, or `sense` is not 1, −1 or 0.
 
     Examples
     --------
@@ -172,7 +172,7 @@ class AnglePlane:
     sense: int = 1
 
     def __post_init__(self) -> None:
-        # The checks of value and sense are those of a plane.
+        # A plane has the same checks of value and sense.
         Plane((1.0,), self.value, self.sense)
 
     def gradient(self, state: Array) -> Array:
@@ -191,7 +191,7 @@ class AnglePlane:
         return np.array(np.arange(len(state)) == self.index, float)
 
     def crossing_kernel(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
-        """Return the crossing kernel and its constants in the units of a problem.
+        """Return the crossing kernel of a system, and the constants of the planes.
 
         Parameters
         ----------
@@ -205,7 +205,7 @@ class AnglePlane:
         cross : callable
             Kernel that finds the crossings.
         constants : ndarray, shape (3,)
-            Index of the angle, its scale, and the value.
+            Index of the angle, its scale, and the value in radians.
         offset : float
             0.
 
@@ -222,10 +222,10 @@ class AnglePlane:
 
 
 class Surface(Protocol):
-    """A surface in state space."""
+    """A surface in state space, on which a function of the state has a given value."""
 
     def gradient(self, state: Array) -> Array:
-        """Return the gradient of the function that vanishes on the surface.
+        """Return the gradient of the function that is constant on the surface.
 
         Parameters
         ----------
@@ -240,10 +240,10 @@ class Surface(Protocol):
 
     @property
     def sense(self) -> int:
-        """Crossings that count: 1 from below, −1 from above, 0 both."""
+        """Crossings that count: those with an increasing function (1), a decreasing one (−1), or both (0)."""
 
     def crossing_kernel(self, system: System, problem: Problem) -> tuple[Callable[..., tuple[int, int]], Array, float]:
-        """Return the crossing kernel with the surface in the units of a problem.
+        """Return the crossing kernel of a system, and the surface in the scaled units of a problem.
 
         Parameters
         ----------
@@ -270,7 +270,7 @@ class Surface(Protocol):
 
 @dataclass(frozen=True)
 class _Search:
-    """A search for crossings by the orbits from `starts` (n, d); all else is in units in which the states are O(1)."""
+    """Search for crossings by the orbits from `starts` (n, d), in the user's units; `end` and `max_step` are scaled."""
 
     body: Body
     plane: Surface
@@ -294,7 +294,7 @@ class _Search:
         max_step: float | None,
         max_steps: int,
     ) -> _Search:
-        """Validate the arguments and scale them.  Raises `InvalidParameter`, `WorkLimit`."""
+        """Return the search with validated arguments and scaled times.  Raises `InvalidParameter`, `WorkLimit`."""
         if not math.isfinite(duration):
             raise InvalidParameter(f"The end of the time span is {duration}: choose a finite number.")
         if not 1 <= crossings <= MAX_CROSSINGS:
@@ -313,7 +313,7 @@ class _Search:
     def run(
         self, problem: Problem, start: Array, duration: float, level: Level, spent: int = 0
     ) -> tuple[tuple[Array, Array], int, WorkLimit | None]:
-        """Return (times, states) of the crossings of the orbit of a problem from `start`, the steps, and its end."""
+        """Return times and states of the crossings of one orbit, its steps, and the error that ends it or None."""
         cross, normal, offset = self.plane.crossing_kernel(problem.system, problem)
         longest = problem.system.longest_step(level, duration, self.max_step)
         room, total = min(self.crossings, _ROOM), 0
@@ -399,7 +399,7 @@ class _Search:
 
 
 def time_error(safety: float, times: Array, others: Array) -> float:
-    """Return the error of the times of crossings, from those of another run and from their own rounding.
+    """Return the error of the times of crossings, from the times of another run and from their own rounding.
 
     Parameters
     ----------
@@ -413,7 +413,7 @@ def time_error(safety: float, times: Array, others: Array) -> float:
     Returns
     -------
     float
-        The error, ≥ 0.
+        The error, ≥ 0, in the unit of the times.
     """
     both = min(times.size, others.size)
     off = float(np.abs(times[:both] - others[:both]).max(initial=0.0))
@@ -445,9 +445,9 @@ def section(
     accuracy : str or Level
         Accuracy level.
     crossings : int, default 100 000
-        Largest number of crossings, 1 to 100 000.
+        Largest number of crossings, 1 to 100 000; the search ends with the last one.
     max_step : float, optional
-        Longest step, positive, in units T, see `solve`.
+        Longest step, positive, in units of the problem, see `solve`.
     max_steps : int, default 5 000 000
         Largest number of steps of all runs together.
 
@@ -459,12 +459,16 @@ def section(
     Raises
     ------
     InvalidParameter
-        If a number is not finite, or the plane does not fit the state.
+        If a number is not finite, a limit on the steps is not positive, or the surface does not fit the system.
     WorkLimit
-        If the orbit needs too many steps.
+        If `crossings` is out of range, or the orbit needs too many steps.
+    MotionEnds
+        If the motion escapes to infinity, or reaches a state without finite rates.
 
     Notes
     -----
+    The start does not count as a crossing, even if it lies on the surface.
+
     Crossings are roots of the orbit's own Taylor polynomials.  Errors of states and times are measured as in `solve`,
     crossing by crossing.  The promise and the status of a level are those of the states.  The times have an error of
     their own, which is the larger one along a conservative motion, where it grows with the time: choose a more exact
@@ -484,7 +488,7 @@ def section(
 
 @dataclass(frozen=True)
 class SectionPoints(Result):
-    """Crossings of several orbits, each computed once.
+    """Crossings of several orbits, each computed once; the result of `section_points`.
 
     The points lie on the surface and on the levels of the integrals.  There is no error estimate along the orbits,
     which would soon be meaningless for chaotic motions; `section` has one.
@@ -494,14 +498,14 @@ class SectionPoints(Result):
     states : list of ndarray, shape (n, d)
         States at the crossings of each orbit.
     drift : dict of str to float
-        Largest drift of each integral.
+        Largest drift of each integral, see `drifts_along`; empty without any crossing.
     cost : Cost
         Steps and time.
-    variables : tuple of str
+    variables : tuple of str, default ()
         Names of the variables.
-    reasons : tuple of str
-        Why each orbit ends before the time span does, with time and place; empty for the others.
-    angles : tuple of str
+    reasons : tuple of str, default ()
+        Why each motion ends before the time span does, with time and place; empty for the others.
+    angles : tuple of str, default ()
         Names of the variables that are angles; they count on over full turns.
     """
 
@@ -569,8 +573,8 @@ def section_points(
 ) -> SectionPoints:
     """Return the crossings of a surface by several orbits, each computed once, for pictures.
 
-    An orbit that falls behind the average rate of crossings in one part of the time span ends there.  A motion that
-    escapes keeps its crossings up to its end.
+    The time span is divided into up to eight parts.  An orbit with less than its share of the crossings in one part
+    ends there.  A motion that ends keeps its crossings until its variables are too large for a picture.
 
     Parameters
     ----------
@@ -599,9 +603,9 @@ def section_points(
     Raises
     ------
     InvalidParameter
-        If a number is not finite, or the plane does not fit the states.
+        If a number is not finite, `max_steps` is not positive, or the surface does not fit the system.
     WorkLimit
-        If an orbit needs too many steps.
+        If `crossings` is out of range, or an orbit needs too many steps.
 
     Examples
     --------

@@ -55,7 +55,7 @@ def nearest(turns: Sequence[float], a: Array, b: Array) -> Array:
 
 
 def distance(turns: Sequence[float], a: Array, b: Array) -> float:
-    """Return the distance between two sets of points, see the module.
+    """Return the distance between two sets of points: Hausdorff's, with a 95 % quantile in place of the maximum.
 
     Parameters
     ----------
@@ -83,15 +83,16 @@ class SetDistance:
     distance : float
         The distance, ≥ 0.
     error : float
-        Largest difference between the distance of quarters of the sets and the distance.
+        Largest difference between `distance` and the distance of corresponding quarters of the sets, ≥ 0.
     grain : float
-        Distance between the two halves of one set, the larger of the two; smaller distances are not resolved.
+        Distance between the two halves of a set, the larger one of both sets, at least 1e-6; smaller distances are not
+        resolved.
     overlap : float
-        Fraction of the points of one set that are as close to the other set as the halves of one set are to each other,
-        the smaller of the two, 0 to 1.
+        Fraction of the points of a set that are as close to the other set as its own halves are to each other, the
+        smaller one of both sets, 0 to 1.
     has_settled : bool
-        True if the halves of each set are closer to each other than a fifth of its size.  Otherwise the orbit was too
-        short or had not settled.
+        True if the halves of each set are closer to each other than a fifth of its size, or coincide.  Otherwise an
+        orbit was too short or had not settled.
     """
 
     distance: float
@@ -102,7 +103,7 @@ class SetDistance:
 
     @property
     def is_separated(self) -> bool:
-        """True if no point of one set is close to the other set, as far as the grain resolves this."""
+        """True for settled sets that are farther apart than grain plus error and overlap by less than 0.5 %."""
         return self.has_settled and self.overlap < 0.005 and self.distance > self.grain + self.error
 
 
@@ -114,9 +115,9 @@ def set_distance(turns: Sequence[float], a: Array, b: Array) -> SetDistance:
     turns : sequence of float
         Period of each coordinate, ∞ if it is not an angle.
     a : ndarray, shape (n, d)
-        One set, in the order of an orbit.
+        One set, in the order of an orbit, n ≥ 8.
     b : ndarray, shape (m, d)
-        The other set, in the order of an orbit.
+        The other set, in the order of an orbit, m ≥ 8.
 
     Returns
     -------
@@ -130,7 +131,7 @@ def set_distance(turns: Sequence[float], a: Array, b: Array) -> SetDistance:
     """
     if min(len(a), len(b)) < _LEAST:
         raise InvalidParameter(
-            f"Sets of {len(a)} and {len(b)} points are too small to compare: follow the orbits for at least {_LEAST}."
+            f"The sets have {len(a)} and {len(b)} points and need at least {_LEAST} each: follow the orbits for longer."
         )
     halves = [(one[: len(one) // 2], one[len(one) // 2 :]) for one in (a, b)]
     grains = [max(_RESOLVED, distance(turns, *both)) for both in halves]

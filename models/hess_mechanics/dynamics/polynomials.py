@@ -34,7 +34,7 @@ class _Number:
 class TaylorModel(_Number):
     """A Taylor model: a function of s in [0, δ] as a polynomial and an upper bound on its error there.
 
-    Polynomials have at most 2 `terms` coefficients; higher terms are added to the bound.
+    The polynomial of a product has at most 2 × `terms` coefficients; higher terms are added to the bound.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ class TaylorModel(_Number):
 
         Returns
         -------
-        Along
+        TaylorModel
             The constant.
         """
         from flint import arb_poly
@@ -94,7 +94,7 @@ class TaylorModel(_Number):
         return self._bound
 
     def distance(self, other: ArbBall) -> ArbBall:
-        """Return an upper bound on the distance from a polynomial on [0, δ].
+        """Return an upper bound on the distance of the function from a polynomial on [0, δ].
 
         Parameters
         ----------
@@ -143,11 +143,13 @@ class TaylorModel(_Number):
         return product
 
     def inverse(self) -> TaylorModel:
-        """Return 1/b from its truncated series q: 1/b = q/(1 − η), η = 1 − qb.
+        """Return the inverse 1/b of this function b.
+
+        With the truncated series q of 1/b and η = 1 − qb, |η| < 1, it is q/(1 − η).
 
         Returns
         -------
-        Along
+        TaylorModel
             The inverse.
 
         Raises
@@ -179,7 +181,7 @@ class TaylorModel(_Number):
 
 
 def _size(coefficients: list[ArbBall], delta: ArbBall) -> ArbBall:
-    """Return Σ|c_k| δ^k."""
+    """Return an upper bound on Σ|c_k| δ^k."""
     from flint import arb_poly
 
     return arb_poly([abs(c) for c in coefficients])(delta).abs_upper()
@@ -193,7 +195,7 @@ class Slope(_Number):
     value : arb
         The value.
     slopes : list of arb
-        Its partial derivatives.
+        Its partial derivatives, one for each variable.
     """
 
     __slots__ = ("slopes", "value")

@@ -2,15 +2,17 @@
 
 A motion is periodic if its crossings repeat, Newton's method finds a periodic orbit there, and the crossings lie on it
 to within the error, or tend to it.  It is chaotic if two independent indicators agree and still agree when the time is
-doubled: MEGNO, which follows neighbours by the variational equations, exceeds 3 and keeps growing, and the 0–1 test of
-every crossing, every second, fourth and so on is close to 1.  It is quasi-periodic if neighbours do not part and
-averages along it converge as on a smooth curve, also without their periodic part; an attractor needs an exponent that
-is 0 too.  If none of this is clear, the motion is followed four times as long, and again; after that it is undecided.
+doubled: MEGNO, which follows neighbours by the variational equations, exceeds 3 and keeps growing, and the largest K of
+the 0–1 test of every crossing, every second, every fourth and so on is close to 1.  It is quasi-periodic if neighbours
+do not part and averages along it converge as on a smooth curve, also without their periodic part; an attractor needs an
+exponent that is 0 too.  If none of this is clear, the motion is followed four times as long, up to three times; after
+that it is undecided.
 
 Dynamics are classified by the sets to which orbits tend forward and backward in time, and by the mean divergence on the
-first one (Gonchenko, Gonchenko, Kazakov 2020).  Both come from an ensemble of orbits.  A verdict needs a mean beyond
-its confidence interval, settled orbits in the majority, and agreement of these about the sets; `conservative` needs a
-fact: a field that preserves a volume, a smooth invariant measure, or a reversor that takes the motion to itself.
+first one (Gonchenko, Gonchenko, Kazakov 2020).  Both come from an ensemble of orbits.  `dissipative` and `mixed` need a
+mean divergence that is negative by more than three errors, at least six settled orbits of eight, and agreement of these
+about the sets; `conservative` needs a fact: a field that preserves a volume, a smooth invariant measure, or a reversor
+that takes the motion to itself.
 """
 
 from __future__ import annotations
@@ -46,7 +48,7 @@ __all__ = ["Dynamics", "MotionKind", "Regime", "comparison", "dynamics_of", "reg
 _MEMBERS = 8
 """Number of orbits of an ensemble; the probability that all agree by chance is 1/2⁸."""
 _ENOUGH = 6
-"""Number of orbits of an ensemble whose sets must have settled; transient orbits carry no information."""
+"""Least number of orbits of an ensemble whose sets must have settled; transient orbits carry no information."""
 _SHIFT = 1e-8
 """Initial distance between the orbits of an ensemble: invisible, but large enough for chaotic orbits to separate."""
 _ROUNDS = 4
@@ -71,13 +73,14 @@ of doublings it consists of bands, which only that many crossings show to be no 
 _LONGEST_PERIOD = 256
 """Longest period that is tried; it has to repeat three times."""
 _CLOSED = 100.0
-"""Largest distance, in errors of the map, between points a period apart: orbits of many returns repeat to some ten.
-Also the largest |f| of a motion at rest."""
+"""Largest distance, in errors of the map, between points a period apart: orbits of many returns repeat to about ten.
+Also the largest |f| of a motion at rest, in the same unit."""
 _INDEPENDENT = 400
 """Crossings after which orbits of an ensemble are taken for independent."""
 _MOST_CROSSINGS = 20_000
 _MIRRORED, _GRAINS = 16, 3.0
-"""Points of a motion whose mirror images are compared with it, and their largest distance, in those of its halves."""
+"""Points of a motion whose mirror images are compared with it, and their largest distance from it, in units of the
+distance between its halves."""
 _TOUCHING = 0.005
 """Fraction of common points from which two sets count as touching.  It was 0.015 to 0.2 in samples of 1500 points of
 sets that touch, and 0 for sets that do not."""
@@ -127,20 +130,20 @@ class Regime(Result):
         Return map of the section.
     kind : MotionKind
         Kind of the motion.
-    points : Array, shape (n, d)
-        Its crossings after the transient; all that were found if the motion did not return.
+    points : ndarray, shape (n, d)
+        Its crossings after the transient; for a motion that did not return, the crossings of the last search.
     duration : float
         Time of MEGNO, positive, in units T; for a motion that did not return, the time limit.
     period : int
-        Number of returns after which it repeats; 0 if no period was found.
+        Number of returns after which the motion repeats; 0 if no period was found.
     megno : float
         Ȳ after that time: of the motion if it is periodic, otherwise the median over the ensemble.  Near 2 for regular
         motions, > 3 for chaotic ones; 0 for a motion that did not return.
     k : float
-        K of the 0–1 test, the largest of every crossing, every second, fourth and so on; NaN if there are too few.
+        Largest K of the 0–1 test of every crossing, every second, every fourth and so on; NaN for fewer than 100.
     divergence, divergence_error : float
-        Mean of div ẏ along the motion and its error, in 1/T, by an ensemble of orbits; three errors are a 99.7 %
-        interval.  Both are 0 if `measure` is not empty or the motion did not return.
+        Mean of div ẏ and its error, in 1/T, along the motion if it is periodic, otherwise over an ensemble of orbits;
+        three errors are a 99.7 % interval.  Both are 0 if `measure` is not empty or the motion did not return.
     measure : str
         Reason why the mean divergence is exactly 0 although the divergence is not; empty if none is known.
     """
@@ -259,7 +262,8 @@ def regime(
     crossings : int, default 200
         Crossings used, 1 to 20 000.  Up to 64 times as many are used if they do not decide, at most 20 000.
     duration : float, default 200
-        Time of MEGNO, positive, in units T; at least 30 returns.  Up to 64 times as long if it does not decide.
+        Time of MEGNO, positive, in units T; longer if 30 returns need more.  Up to 64 times as long if it does not
+        decide.
 
     Returns
     -------
@@ -271,10 +275,12 @@ def regime(
     ------
     InvalidParameter
         If a number is out of range.
+    NoReturn
+        If the last crossing is not followed by another one on the same sheet.
     OutsideRegion
         If no motion crosses the section at the point.
     WorkLimit
-        If the orbit needs too many steps.
+        If the orbit needs too many steps, or the motion ends.
 
     Examples
     --------
@@ -328,7 +334,7 @@ def _not_seen(map_: ReturnMap, points: Array, start: Sequence[float] | Array) ->
 
 def _evidence(map_: ReturnMap, points: Array, duration: float) -> _Evidence:
     period, settled = _period(map_, points)
-    # A periodic orbit needs no ensemble; the kind of other motions follows from the mean over their neighbours.
+    # A periodic orbit needs no ensemble; the kind of any other motion follows from its neighbours as well.
     starts = points[-1:] if period else _ensemble(map_, points)
     early, late = (_indicated(map_, starts, time) for time in (duration / 2.0, duration))
     windows = late.windows
@@ -362,7 +368,7 @@ def _period(map_: ReturnMap, points: Array) -> tuple[int, bool]:
 
 
 def _closes(map_: ReturnMap, points: Array, m: int) -> bool:
-    """Return True if Newton's method finds an orbit of period m on which the points lie, or to which they tend."""
+    """Return True if the points lie on, or tend to, an orbit of least period m that Newton's method finds."""
     last, precision = points[-m:], min(SAME, _CLOSED * map_.promise)
     if m == 1 and _at_rest(map_, last[0], precision):
         # The motion does not return, but its kind is known: f(y) = 0.
@@ -412,7 +418,7 @@ def _indicated(map_: ReturnMap, points: Array, duration: float) -> Megno:
 def _reversor(map_: ReturnMap, points: Array) -> str:
     """Return the reversor that takes a motion to itself, in words; an empty string if there is none.
 
-    As it changes the sign of the divergence and of time, the mean divergence of such a motion is 0.
+    A reversor changes the sign of the divergence and of time, so the mean divergence of such a motion is 0.
     """
     plane = map_.section
     halves = np.array_split(points, 2)
@@ -439,7 +445,7 @@ def _reversor(map_: ReturnMap, points: Array) -> str:
 
 
 def _has_a_curve(map_: ReturnMap, point: Array, duration: float) -> bool:
-    """True if more exponents vanish, by one, than the integrals and the direction of motion require.
+    """Return True if at least one more exponent vanishes than the integrals and the direction of motion require.
 
     An attracting invariant curve has such an exponent; an attracting periodic orbit, however long, does not.
     """
@@ -491,7 +497,7 @@ class Dynamics(Result):
 
     @property
     def verdict(self) -> str:
-        """The verdict: "conservative", "dissipative", "mixed" or "not told apart"."""
+        """One of "conservative", "dissipative", "mixed" and "not told apart", see the module."""
         if self.motion.map_.preserves_volume or self.motion.measure:
             return "conservative"
         if sum(one.has_settled for one in self.comparisons) >= _ENOUGH and self.motion.volume < 0:
@@ -548,7 +554,7 @@ def dynamics_of(
     crossings : int, default 2000
         Crossings used of each orbit, 8 to 20 000.
     duration : float, default 1000
-        Time over which the divergence of each orbit is averaged, positive, in units T.
+        Time of MEGNO and of the mean divergence, positive, in units T, see `regime`.
 
     Returns
     -------
@@ -564,7 +570,7 @@ def dynamics_of(
     OutsideRegion
         If no motion crosses the section at the point.
     WorkLimit
-        If an orbit needs too many steps.
+        If an orbit needs too many steps, or a motion ends.
 
     Examples
     --------
@@ -593,7 +599,7 @@ def comparison(
     transient : int
         Crossings discarded of each orbit.
     crossings : int
-        Crossings used of each orbit.
+        Crossings used of each orbit, at least 8.
 
     Returns
     -------
@@ -602,6 +608,8 @@ def comparison(
 
     Raises
     ------
+    InvalidParameter
+        If there are fewer than 8 crossings.
     NoReturn
         If the motion does not return often enough.
     OutsideRegion

@@ -43,7 +43,7 @@ section."""
 _WAIT = 2000.0
 """Time limit for the next crossing of a single orbit, in the same units."""
 _AROUND = 2.0 ** np.arange(-10.0, 1.0)
-"""Distances, in units of the promise, at which the edge of the section is looked for."""
+"""Distances from a point beyond the edge, in units of the promise, at which a point inside is looked for."""
 _MOST = 1_000_000
 """Largest number of returns."""
 _PIECE = 50
@@ -57,7 +57,7 @@ _AGREE = 1e-14
 _TRIED = (4, 200, 4000)
 """Points tried for each state of a section: motions may cross it in a small part only."""
 _TURNS = 120.0
-_TOO_LONG = f"This return needs more than {MAX_STEPS} steps: choose another point, or a cheaper level."
+_TOO_LONG = f"The return to the section needs more than {MAX_STEPS} steps: choose another point, or a cheaper level."
 _AT_ONCE = 1e-8
 """A crossing before this time, in units of 1/ν, is the start itself."""
 
@@ -98,7 +98,7 @@ class PoincareSection(Protocol):
 
     @property
     def slowness(self) -> float:
-        """Factor by which a turn may take longer than 1/ν for this inertia tensor."""
+        """Factor of the time limits in units of 1/ν, ≥ 1: how much slower than ν the motions of this body may be."""
 
     @property
     def constants(self) -> Mapping[str, float]:
@@ -171,12 +171,12 @@ class PoincareSection(Protocol):
         count : int
             Number of states.
         window : ((float, float), (float, float)), optional
-            Two opposite corners of the window.  By default the whole section.
+            Lower left and upper right corner of the window.  By default the whole section.
 
         Returns
         -------
         tuple of tuple of float
-            The states; fewer if that part is tiny.
+            The states; fewer, perhaps none, if that part is tiny.
         """
         low, high = np.array(self.window).T[..., None] if window is None else np.array(window)[..., None]
         for tried in _TRIED:
@@ -226,7 +226,7 @@ def section_crossings(
     turns: float = _TURNS,
     **limits: int,
 ) -> SectionPoints:
-    """Return the crossings of several orbits that follow each other within a time limit, see `section_points`.
+    """Return the crossings of a section by several orbits, with a time limit per crossing, see `section_points`.
 
     Parameters
     ----------
@@ -235,15 +235,16 @@ def section_crossings(
     starts : array_like, shape (n, d)
         Initial states.
     crossings : int
-        Number of crossings of each orbit.
+        Largest number of crossings of each orbit, 1 to 100 000.
     accuracy : str or Level
         Accuracy level.
     backward : bool, default False
         Follow the orbits backward in time.
     longest : float, optional
-        Time limit per crossing, positive.  By default `turns`; few orbits take longer.
-    turns : float, default _TURNS
-        Time limit per crossing in units of 1/ν times the slowness of the section.
+        Mean time limit per crossing, positive, in units of the problem.  By default that of `turns`, which few orbits
+        exceed.
+    turns : float, default 120
+        The same limit in units of 1/ν times the slowness of the section.
     **limits : int
         Arguments `threads` and `max_steps` of `section_points`.
 
@@ -276,8 +277,8 @@ class ReturnMap:
     backward : bool, default False
         Map backward in time instead of forward.
     longest : float, optional
-        Longest time of a return, in units of the problem.  By default 2000/ν times the slowness of the section, and
-        400/ν in Newton's method, which tries many points.
+        Longest time of a return, positive, in units of the problem.  By default 2000/ν times the slowness of the
+        section in `orbit`, `wait` and `time_of`, and 400/ν times it in the methods that Newton's method calls.
     """
 
     section: PoincareSection
@@ -297,7 +298,7 @@ class ReturnMap:
 
     @property
     def promise(self) -> float:
-        """Largest error that the accuracy level promises."""
+        """Largest error that the accuracy level promises, in units in which the states are O(1)."""
         return self.accuracy.promise
 
     @property
@@ -311,7 +312,7 @@ class ReturnMap:
         return self.accuracy.is_floor
 
     def tighter(self) -> ReturnMap:
-        """Return the same map with a hundredth of the tolerance and starts that differ by roundings.
+        """Return the same map at a level with a hundredth of the tolerance, see `Level.tighter`.
 
         Returns
         -------
@@ -348,7 +349,9 @@ class ReturnMap:
         Raises
         ------
         InvalidParameter
-            If there is no such constant.
+            If there is no such constant, or the value is not a finite number.
+        ModelError
+            If there is no section at this value.
         """
         self.constant(name)
         return replace(self, section=self.section.at_constant(name, as_number(name, value)))
@@ -373,12 +376,14 @@ class ReturnMap:
         """
         if not isinstance(name, str) or name not in self.section.constants:
             raise InvalidParameter(
-                f"{name} is not a constant here: choose one of {', '.join(self.section.constants) or 'none'}."
+                f"{name} is not a constant here. Allowed names: {', '.join(self.section.constants) or 'none'}."
             )
         return self.section.constants[name]
 
     def state_at(self, point: Array) -> Array:
         """Return the state at a point of the section.
+
+        A point that lies beyond the edge by less than the promise of the level gets the state of a point inside.
 
         Parameters
         ----------
@@ -392,6 +397,8 @@ class ReturnMap:
 
         Raises
         ------
+        InvalidParameter
+            If a point does not have k numbers.
         OutsideRegion
             If no motion crosses the section at a point.
         """
@@ -420,24 +427,26 @@ class ReturnMap:
 
         Raises
         ------
+        InvalidParameter
+            If a point does not have k numbers.
         NoReturn
-            If the orbit does not return within the time limit.
+            If the orbit does not return within the time limit, or returns on another sheet.
         OutsideRegion
-            If no motion crosses the section at the point.
+            If no motion crosses the section at a point.
         WorkLimit
-            If the return needs too many steps.
+            If the return needs too many steps, or the motion ends.
         """
         return self.iterate(point, 1)
 
     def iterate(self, point: Array, count: int) -> Array:
-        """Return the image of a point after several returns.
+        """Return the image of a point after a number of returns.
 
         Parameters
         ----------
         point : array_like, shape (k,) or (m, k)
             Coordinates of the point, or of several points.
         count : int
-            Number of returns.
+            Number of returns, 0 to 1 000 000; with 0 the image is the point itself.
 
         Returns
         -------
@@ -446,12 +455,14 @@ class ReturnMap:
 
         Raises
         ------
+        InvalidParameter
+            If a point does not have k numbers, or `count` is out of range.
         NoReturn
-            If the orbit does not return within the time limit.
+            If the orbit does not return within `count` times the time limit, or returns on another sheet.
         OutsideRegion
-            If no motion crosses the section at the point.
+            If no motion crosses the section at a point.
         WorkLimit
-            If the returns need too many steps.
+            If the returns need too many steps, or the motion ends.
         """
         points, count = self._points(point), as_integer("count", count, 0, _MOST)
         if count == 0:
@@ -469,19 +480,22 @@ class ReturnMap:
         point : array_like, shape (k,)
             Coordinates of the point.
         count : int
-            Number of crossings.
+            Number of crossings, 0 to 1 000 000, including those on other sheets.
 
         Returns
         -------
         ndarray, shape (n, k)
-            Coordinates of the crossings on this sheet; n < `count` if no crossing is found for the time `wait`.
+            Coordinates of the crossings on this sheet.  n < `count` if some lie on other sheets, or if none of the next
+            50 is found on this sheet within the time `wait`.
 
         Raises
         ------
+        InvalidParameter
+            If the point does not have k numbers, or `count` is out of range.
         OutsideRegion
             If no motion crosses the section at the point.
         WorkLimit
-            If the crossings need too many steps.
+            If the crossings need too many steps, or the motion ends.
         """
         section = self.section
         parts = [np.empty((0, len(self.turns)))]
@@ -529,7 +543,7 @@ class ReturnMap:
         Returns
         -------
         float
-            Time, in units of the problem.
+            Time, positive, in units of the problem.
 
         Raises
         ------
@@ -547,7 +561,7 @@ class ReturnMap:
         point : array_like, shape (k,) or (m, k)
             Coordinates of the point, or of several points whose times are added.
         count : int, default 1
-            Number of returns.
+            Number of returns, at least 1.
 
         Returns
         -------
@@ -557,11 +571,11 @@ class ReturnMap:
         Raises
         ------
         NoReturn
-            If a return takes longer than `wait`.
+            If the returns take longer than `count` times `wait`, or the last one is on another sheet.
         OutsideRegion
-            If no motion crosses the section at the point.
+            If no motion crosses the section at a point.
         WorkLimit
-            If the returns need too many steps.
+            If the returns need too many steps, or the motion ends.
         """
         problem, times, _ = self._crossings(np.atleast_2d(self.state_at(point)), count, _WAIT)
         return float(times.sum() / problem.nu)
@@ -583,12 +597,14 @@ class ReturnMap:
 
         Raises
         ------
+        InvalidParameter
+            If a point does not have k numbers, or an orbit is tangent to the surface where it returns.
         NoReturn
-            If the orbit does not return within the time limit.
+            If an orbit does not return within the time limit, or returns on another sheet.
         OutsideRegion
-            If no motion crosses the section at a point.
+            If no motion crosses the section at a point, or a point is too close to the edge of the section.
         WorkLimit
-            If a return needs too many steps.
+            If a return needs too many steps, or a motion ends.
         """
         points = self._points(point)
         several = np.atleast_2d(points)
@@ -619,13 +635,13 @@ class ReturnMap:
         return points
 
     def _limit(self, problem: Problem, default: float) -> float:
-        """Return the time limit of a return, in units of 1/ν times the slowness of the section."""
+        """Return `longest`, or else the default time limit of a return, in units of 1/ν times the slowness."""
         return default if self.longest is None else self.longest * problem.nu / self.section.slowness
 
     def _flow(self, problem: Problem, times: Array) -> tuple[Array, Array]:
-        """Return the derivative (m, d, d − 1) of the flow along orthonormal directions, and these, (m, d, d − 1).
+        """Return the derivatives of the flow along d − 1 orthonormal directions, and these directions, (m, d, d − 1).
 
-        The direction of motion is left out: the return map takes it to 0.
+        The direction of motion is left out: the derivative of the return takes it to 0.
         """
         system, accuracy = self.section.system, self.accuracy
         m, d = problem.states.shape
@@ -655,8 +671,8 @@ class ReturnMap:
     def _search(self, starts: Array) -> tuple[Problem, _Search]:
         """Return the scaled problem, and the search for the crossings of one of its orbits.
 
-        search(start, target, longest) returns the number of crossings found within a time limit, with their times and
-        states in the problem's units.
+        search(start, target, longest) returns the number of crossings found within a time limit, or a negative code if
+        the motion cannot be followed, with their times and states in scaled units.
         """
         section, accuracy = self.section, self.accuracy
         problem = Problem.of(section, starts)
@@ -686,7 +702,7 @@ class ReturnMap:
         return problem, search
 
     def _crossings(self, starts: Array, count: int, longest: float) -> tuple[Problem, Array, Array]:
-        """Return the scaled problem, and times (m,) and states (m, d) of the crossings with this number."""
+        """Return the scaled problem, and times (m,) and states (m, d) of the crossing number `count` of each orbit."""
         problem, search = self._search(starts)
         longest = self._limit(problem, longest)
         times, states = np.empty(len(starts)), np.empty_like(problem.states)
@@ -749,7 +765,7 @@ class ReturnMap:
     def preserves_volume(self) -> bool:
         """True if the divergence of the field is 0 everywhere, so that nothing attracts where motions are bounded.
 
-        It is computed at a few states in general position.
+        It is tested at three states in general position.
         """
         system, p = self.section.system, self.section.parameters
         d = len(system.variables)
@@ -759,7 +775,10 @@ class ReturnMap:
 
     @cached_property
     def mirrors(self) -> tuple[Mirror, ...]:
-        """Symmetries that map motions through this section to such motions, and reversors that map it to itself."""
+        """Symmetries that map motions through the section to such motions, and reversors of the section to itself.
+
+        They are tested at one point; empty if no motion crosses the section.
+        """
         for state in self.section.spread(1):
             point = self.section.points_of(np.array([state]))[0]
             known = sign_symmetries(self.section.system, self.section.parameters)
@@ -813,7 +832,8 @@ class ReturnMap:
         points : ndarray, shape (m, k)
             Points of the orbit.
         near : float, default 1e-7
-            Distance within which the image of a point is another point of the orbit; at least 1000 times the error.
+            Distance within which the image of a point counts as a point of the orbit; 1000 times the promise of the
+            level if that is larger.
 
         Returns
         -------

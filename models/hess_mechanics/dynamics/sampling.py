@@ -1,4 +1,4 @@
-"""Sampling times for which the polyline through the samples looks like the curve.
+"""Sampling times at which the polyline through the samples of an orbit looks like the curve.
 
 Between two samples Δt apart, a curve x(t) stays within |ẍ| Δt²/8 of its chord at every time.  This bounds the error of
 the drawn line and of a point that moves along it; hence the density of samples is √(|ẍ|/(8 sagitta)).
@@ -22,9 +22,9 @@ __all__ = ["HALF_A_PIXEL", "MOST_SAMPLES", "PIXELS", "SAGITTA", "sample_times", 
 PIXELS = 600.0
 """Width, in pixels, of the pictures for which orbits are sampled; in a wider picture errors grow in proportion."""
 SAGITTA = 0.25
-"""The largest distance between an orbit and its chords in those pictures, in pixels."""
+"""Largest distance between an orbit and its chords in those pictures, in pixels."""
 MOST_SAMPLES = 4000
-"""Maximum number of samples of one orbit in those pictures."""
+"""Largest number of samples of one orbit in those pictures."""
 HALF_A_PIXEL = 1.0 / PIXELS
 """Half a pixel where the state is O(1) and spans the picture from −1 to 1."""
 
@@ -35,7 +35,7 @@ _SAMPLES_PER_STEP = 16
 
 
 def sample_times(body: Body, state: Array, duration: float, weights: Array, sagitta: float, most: int) -> Array:
-    """Return times of an orbit whose polygon looks like the curve.
+    """Return times at which the polyline through the states of an orbit looks like the curve.
 
     If the orbit cannot be computed, the times are evenly spaced, and computing the orbit at them raises the error.
 
@@ -62,7 +62,7 @@ def sample_times(body: Body, state: Array, duration: float, weights: Array, sagi
     Raises
     ------
     InvalidParameter
-        If a number is not finite.
+        If the state does not fit the body, or a number is not finite.
     """
     problem = Problem.of(body, np.array(state, float, ndmin=2))
     count = int(min(_MOST_COARSE, max(64.0, abs(duration) * problem.nu / _COARSE))) + 1
@@ -96,7 +96,7 @@ def sampled_orbit(
     most: int = MOST_SAMPLES,
     max_step: float | None = None,
 ) -> Orbit:
-    """Return an orbit at the times that `sample_times` chooses.
+    """Return an orbit at the times of `sample_times`, with the sagitta `SAGITTA`.
 
     A motion that ends earlier is followed up to its end, or until its variables are too large for a picture; its status
     is then INCOMPLETE, with a reason.
@@ -113,8 +113,8 @@ def sampled_orbit(
         Pixels per unit of each variable.
     accuracy : str or Level
         Accuracy level.
-    most : int, default MOST_SAMPLES
-        Largest number of times.
+    most : int, default 4000
+        Largest number of times, at least 2.
     max_step : float, optional
         Longest step, see `solve`.
 
@@ -129,6 +129,8 @@ def sampled_orbit(
         As `solve`.
     WorkLimit
         As `solve`.
+    MotionEnds
+        If the motion ends at its start.
     """
 
     def sampled(duration: float) -> Orbit:

@@ -24,14 +24,15 @@ _TOGETHER = 8
 
 @dataclass(frozen=True)
 class Visits:
-    """Crossings of some orbits, counted in the cells of a window.
+    """Crossings of some orbits, counted in cells; the result of `visits` and `visits_over`.
 
     Attributes
     ----------
     counts : ndarray of int, shape (n, m)
-        Crossings in each cell, rows of equal y.
+        Crossings in each cell, rows of equal y in increasing order.
     ends : ndarray, shape (k, d)
-        Last crossing of each orbit: a state (`visits`) or a point, NaN if there is none (`visits_over`).
+        Last crossing of each orbit.  `visits`: a state, for the orbits that have one.  `visits_over`: a point for each
+        value, NaN if there is none.
     points : int
         Number of counted crossings, which are those within the window.
     drift : mapping of str to float
@@ -44,7 +45,7 @@ class Visits:
     drift: Mapping[str, float]
 
     def combine(self, before: Visits) -> Visits:
-        """Add these visits to earlier visits of the same orbits.
+        """Return these visits added to earlier visits of the same orbits.
 
         Parameters
         ----------
@@ -54,7 +55,7 @@ class Visits:
         Returns
         -------
         Visits
-            The sum.
+            The sums of the counts, the larger drifts, and the ends of these visits.
         """
         drift = _larger(before.drift, self.drift)
         return replace(
@@ -73,20 +74,20 @@ def visits(
 ) -> Visits:
     """Return the visits of several orbits to the cells of a window, on one core.
 
-    Crossings elsewhere, or on another sheet, are not counted.
+    Crossings elsewhere, on the upper edges of the window, or on another sheet are not counted.
 
     Parameters
     ----------
     section : PoincareSection
         The section.
     window : ((float, float), (float, float))
-        Corners of the window.
+        Lower left and upper right corner of the window.
     cells : (int, int)
         Number of cells across and up, (m, n).
     starts : array_like, shape (k, d)
         Initial states.
     crossings : int
-        Number of crossings of each orbit.
+        Largest number of crossings of each orbit, 1 to 100 000.
     forward : bool
         Follow the orbits forward in time, otherwise backward.
     accuracy : str or Level
@@ -142,18 +143,18 @@ def visits_over(
 ) -> Visits:
     """Return the visits of one orbit at each value of a parameter, in a column of cells for each, on one core.
 
-    Columns without motion are empty.
+    Columns of values without a body or without a motion are empty.
 
     Parameters
     ----------
     family : callable
-        Function from the value to the section.
-    values : sequence of float
+        Function from the value to the section; where it raises a `ModelError`, the column is empty.
+    values : sequence of float, length n
         Values of the parameter.
     side : int
         Index of the coordinate that is counted.
     reach : (float, float)
-        Range of this coordinate.
+        Range of this coordinate, without its upper end.
     rows : int
         Number of cells over this range.
     starts : array_like, shape (n, k)

@@ -57,7 +57,7 @@ def errors_in_pixels(
 
 
 def has_diverged(away: Array) -> bool:
-    """Return True if the errors of a computed orbit grow so much that it has left the true orbit, as in chaos.
+    """Return True if the errors show that a computed orbit has left the true orbit, as in chaos.
 
     Parameters
     ----------
@@ -100,14 +100,14 @@ def distances_to_curve(points: Array, curve: Array) -> Array:
 def count_correct_crossings(
     orbits: Sequence[Array], exact: Sequence[Array], pixels: Sequence[float], periods: Sequence[float] = (math.inf,) * 2
 ) -> tuple[int, ...]:
-    """Count for each orbit the first points that lie within half a pixel of those of a more accurate run.
+    """Count the first points of each orbit that lie within half a pixel of those of a more accurate run.
 
     Parameters
     ----------
     orbits : sequence of ndarray, shape (n, 2)
         Points of each orbit.
     exact : sequence of ndarray, shape (k, 2)
-        Points of the more accurate runs.
+        Points of the more accurate run of each orbit.
     pixels : sequence of float
         Pixels per unit of each coordinate.
     periods : sequence of float, optional
@@ -126,7 +126,7 @@ def count_correct_crossings(
 
 
 def lower_median(counts: Sequence[int]) -> int | None:
-    """Return the lower median of counts.
+    """Return the lower median of counts: the middle one, or the smaller of the two in the middle.
 
     Parameters
     ----------

@@ -1,12 +1,12 @@
 """Lyapunov exponents of one orbit, from its variational equations (Benettin, Galgani, Giorgilli, Strelcyn 1980).
 
-The largest one is the growth rate of a single tangent vector, which starts in a fixed direction that no symmetry
-singles out and is renormalised when it is long.  For all of them a frame of tangent vectors is orthonormalised whenever
-its condition requires it, so no distance has to be small and no digits are lost to round-off.  ∫ tr J dt is computed
-along with it; its mean is the sum of all exponents, whatever the frame.
+The largest exponent is the growth rate of a single tangent vector, which starts in a fixed direction that no symmetry
+singles out and is renormalised when it is long.  For all exponents a frame of tangent vectors is orthonormalised
+whenever its condition requires it, so no distance has to be small and no digits are lost to round-off.  ∫ tr J dt is
+computed along with the frame; its mean is the sum of all exponents, whatever the frame.
 
-The first vector of a frame is along the motion.  It equals f(y) at any time and grows as ln |f(y)|, so it is not
-integrated until the motion comes to rest.
+The first vector of a frame is along the motion.  It is parallel to f(y) and as long, up to a constant factor, so it is
+not integrated until the motion becomes slow.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ class Exponent(Result):
     Attributes
     ----------
     times : ndarray, shape (n,)
-        Times.
+        Times, positive and increasing, also for backward motion.
     rates : ndarray, shape (n,)
         Mean growth rate up to each time, in 1/T; the last one is the estimate.
     spread : float
@@ -72,7 +72,7 @@ class Exponent(Result):
 
     @property
     def value(self) -> float:
-        """The estimate, per unit of time."""
+        """The estimate of the exponent, in 1/T."""
         return float(self.rates[-1])
 
     def labels(self) -> Labels:
@@ -107,20 +107,20 @@ class Spectrum(Result):
     level : str
         Name of the accuracy level.
     times : ndarray, shape (n,)
-        Times.
+        Times, positive and increasing, also for backward motion.
     rates : ndarray, shape (n, d)
-        Mean growth rates up to each time, in 1/T, which show the convergence.
+        Mean growth rates up to each time, in 1/T, in the order of `values`; they show the convergence.
     values : ndarray, shape (d,)
         The exponents, in 1/T, the largest first: means over the last four fifths of the time.
     errors : ndarray, shape (d,)
-        Standard error, in 1/T, from 12 stretches of time, combined with the part of the growth that is a power of t and
-        therefore no exponent.
+        Their errors, in 1/T: the standard error from 12 stretches of time, combined with the part of the growth that is
+        a power of t and therefore no exponent, plus the error of the integration.
     divergence, divergence_error : float
         Mean of tr J over the same time, and its error ≥ 0, both in 1/T.
     integrals : int
         Number of first integrals of the system.
     status : Status
-        How the computation ended.
+        `OK` if the largest error is within the promise of the level, else `PROMISE_NOT_MET`.
     cost : Cost
         Steps and time.
     """
@@ -139,7 +139,7 @@ class Spectrum(Result):
 
     @property
     def error_estimate(self) -> float:
-        """Largest error of an exponent."""
+        """Largest error of an exponent, in 1/T."""
         return float(self.errors.max())
 
     @property
@@ -152,7 +152,7 @@ class Spectrum(Result):
 
     @property
     def zeros(self) -> int:
-        """Number of zero exponents: one per integral, and one for the direction of motion of a moving state."""
+        """Number of exponents within three errors of 0; each integral gives one, and so does a motion not at rest."""
         return self.signs.count("0")
 
     @cached_property
@@ -203,15 +203,16 @@ class Spectrum(Result):
 def kaplan_yorke(values: Array, errors: Array, total: float, total_error: float = 0.0) -> tuple[float, float]:
     """Return the Kaplan–Yorke dimension k + Σ_(i≤k) λ_i/|λ_(k+1)| of exponents and its error.
 
-    The k is the largest number whose first k exponents have a sum ≥ 0.  Where that is all of them, to three errors of
-    their sum, the dimension is m, and its error is how far below m it may be.
+    Here k is the largest number such that the sum of the first k exponents is ≥ 0.  If that is true of all m exponents,
+    to three errors of their sum, the dimension is m, and its error is how far below m it may be.  If the sum is
+    negative but the last exponent is 0, the dimension is undefined, and both results are m.
 
     Parameters
     ----------
     values, errors : ndarray, shape (m,)
         The exponents, the largest first, and their errors.
     total : float
-        Their sum, the mean divergence, which is known better than from them.
+        Their sum, the mean divergence, which is known more exactly than they are.
     total_error : float, default 0.0
         Error of the sum, ≥ 0.
 
@@ -250,7 +251,7 @@ def kaplan_yorke(values: Array, errors: Array, total: float, total_error: float 
 def no_chaos(problem: Problem, start: Array, states: Array, duration: float, level: Level, grows: bool) -> str:
     """Return the reason why a motion is not chaotic, however its neighbours part.
 
-    Only if neighbours part is the motion searched for a return to its start.
+    A return of the motion to its start is looked for only if `grows` is True.
 
     Parameters
     ----------
@@ -259,7 +260,7 @@ def no_chaos(problem: Problem, start: Array, states: Array, duration: float, lev
     start : ndarray, shape (d,)
         State at time 0, in scaled units.
     states : ndarray, shape (n, d)
-        States at even times, in scaled units.
+        States at evenly spaced times, in scaled units.
     duration : float
         Time of the last state, in scaled units.
     level : Level
@@ -270,7 +271,7 @@ def no_chaos(problem: Problem, start: Array, states: Array, duration: float, lev
     Returns
     -------
     str
-        The reason in words; empty if there is none.
+        The reason in words: two dimensions, at rest, escaping, or periodic; empty if there is none.
     """
     system, p = problem.system, problem.parameters
     if start.size - len(system.integrals(start.tolist(), p.tolist())) <= 2:
@@ -313,14 +314,16 @@ def lyapunov_exponent(body: Body, start: Sequence[float], duration: float, accur
     Returns
     -------
     Exponent
-        The running estimates, per unit of time.
+        The running estimates, in 1/T.
 
     Raises
     ------
     InvalidParameter
-        If a number is not finite.
+        If a number is not finite, or the duration is 0.
     WorkLimit
-        If the time span is too long.
+        If the time span is too long, or the orbit needs too many steps.
+    MotionEnds
+        If the motion ends before.
 
     References
     ----------
@@ -357,9 +360,7 @@ def lyapunov_exponent(body: Body, start: Sequence[float], duration: float, accur
 def lyapunov_spectrum(
     body: Body, start: Sequence[float] | Array, duration: float, accuracy: Accuracy = STANDARD
 ) -> Spectrum:
-    """Return all Lyapunov exponents of an orbit.
-
-    They are the exponents of the equations in all d variables.
+    """Return all Lyapunov exponents of an orbit, one for each of the d variables.
 
     Parameters
     ----------
@@ -380,9 +381,11 @@ def lyapunov_spectrum(
     Raises
     ------
     InvalidParameter
-        If a number is not finite.
+        If a number is not finite, or the duration is 0.
     WorkLimit
         If the orbit needs too many steps.
+    MotionEnds
+        If the motion ends before.
 
     References
     ----------

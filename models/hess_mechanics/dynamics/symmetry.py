@@ -30,7 +30,7 @@ class Mirror:
     signs : ndarray, shape (d,)
         Factor of each variable, 1 or −1.
     reverses : bool
-        True for a reversor.
+        True for a reversor, False for a symmetry.
     """
 
     name: str
@@ -56,7 +56,7 @@ class Mirror:
 def sign_symmetries(system: System, parameters: Sequence[float]) -> tuple[Mirror, ...]:
     """Return all sign changes of variables that map motions to motions, forward or backward in time.
 
-    Each, except the identity, is tested at six states in general position, to round-off.
+    Every combination of signs but the identity is tested at six states in general position, to round-off.
 
     Parameters
     ----------

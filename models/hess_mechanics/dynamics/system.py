@@ -1,7 +1,7 @@
 """Systems of equations of motion, and the registry of all systems.
 
-A system is a module of this package with a `SYSTEM`.  Its field and integrals are plain arithmetic, so that they accept
-floats, arrays, symbols and multiple-precision numbers; its kernels are derived from the field.
+Each system of this package is the `SYSTEM` of a module.  Its field and integrals are plain arithmetic, so that they
+accept floats, arrays, symbols and multiple-precision numbers; its kernels are derived from the field.
 """
 
 from __future__ import annotations
@@ -51,13 +51,13 @@ Kernel = Callable[..., Any]
 """A compiled function, see the module that makes it."""
 
 _CANCELS = 64.0 * 2.0**-52
-"""Round-off of a rate, relative to the state and the rates, that a moved start does not show."""
+"""Round-off of a rate, relative to the state and the rates, from which on a moved start does not show it."""
 _SAMPLES = 8
 """Number of states at which the round-off of rates is measured."""
 _DERIVING = RLock()
 """Lock around the derivation of kernels, so that threads compile each kernel once."""
 _SEED, _CHECKS, _ROUNDING = 1, 4, 1e-9
-"""Checks at random points: seed of the random numbers, number of draws, and relative rounding error."""
+"""Checks at random points: seed of the random numbers, number of draws, and largest relative difference."""
 _COMPILE = 3.0, 0.2
 """Seconds that a kernel takes to compile, and those for each product in its source.  Measured on one core: 9 s for an
 orbit in 30 variables with 32 products, 49 s for a spectrum with 213, 268 s for one with 1424."""
@@ -105,7 +105,7 @@ def _plain(p: Array) -> float:
 
 
 def _names(system: str, what: str, given: str | Iterable[str]) -> tuple[str, ...]:
-    """Return names given as a text or a sequence.  Raises `InvalidParameter`."""
+    """Return the names in a text or a sequence.  Raises `InvalidParameter`."""
     parts = given.replace(",", " ").split() if isinstance(given, str) else given
     names = tuple(parts) if np.iterable(parts) else (parts,)
     if not all(isinstance(name, str) and name for name in names) or (what == "variables" and not names):
@@ -128,7 +128,7 @@ def _numbers(what: str, names: tuple[str, ...], values: Any) -> tuple[float, ...
 class System:
     """A system of differential equations ẏ = f(y, p).
 
-    Name, field and variables are enough; the rest has defaults, and is checked when given.
+    Name, field and variables are enough; all other parameters have defaults.
 
     Parameters
     ----------
@@ -141,12 +141,13 @@ class System:
     parameters : str, sequence of str or mapping of str to float, default none
         Names of the q components of p.  A mapping also gives values, which become those of the example.
     example : (sequence of float, sequence of float) or sequence of float, optional
-        A state and parameters to try, or the state alone.  By default 0.1, 0.2, … for the state, and 1 for parameters.
+        A state and parameters to try, or the state alone.  By default 0.1, 0.2, … for the state; for the parameters the
+        values of the mapping, or 1.
     title : str, optional
         Name in words.  By default the name.
     source : str, optional
         Equation numbers in the paper, or another citation.
-    labels : tuple of str, optional
+    labels : sequence of str, optional
         Labels of these equations in the paper's LaTeX source.
     integrals : callable, optional
         First integrals by name, integrals(y, p), in plain arithmetic on sequences.
@@ -161,8 +162,8 @@ class System:
     unit : callable, optional
         Scale unit(p) of the leading variables besides ν.  By default 1.
     tolerance : callable, optional
-        Tolerance for an orbit from y whose series needs a smaller one than the level's `default`, tolerance(y, p,
-        order, default).  It is compiled.
+        Function tolerance(y, p, order, default) that replaces the tolerance `default` of a level for an orbit from y,
+        if its series needs a smaller one.  It is compiled.
     angles : str or sequence of str, default none
         Names of variables that are angles in radians: the field is the same after a full turn, and sections count them
         up to full turns.
@@ -260,14 +261,17 @@ class System:
         )
 
     def _check_field(self) -> None:
-        """Record the field with symbols, and compute the integrals of the example."""
+        """Check the names, the functions, and the integrals of the example.
+
+        Raises `InvalidParameter`, or `NotTraceable` if the field cannot be traced.
+        """
         if len({*self.variables, *self.parameters}) < len(self.variables) + len(self.parameters):
             raise InvalidParameter(
                 f"{self.title}: a name occurs twice among variables and parameters: rename one of them."
             )
         for what in ("field", "integrals", "frequency", "rescale", "unit"):
             if not callable(getattr(self, what)):
-                raise InvalidParameter(f"{self.title}: `{what}` must be a function of y and p.")
+                raise InvalidParameter(f"{self.title}: `{what}` must be a function, see the parameters of `System`.")
         check(self.field, len(self.variables), len(self.parameters))
         try:
             integrals = dict(self.integrals(*self.example))
@@ -284,7 +288,7 @@ class System:
         if self.angular_velocities not in range(d + 1):
             raise WrongScaling(
                 f"{self.title}: angular_velocities counts the leading variables that scale with 1/time, "
-                f"so it is from 0 to {d}."
+                f"so choose it from 0 to {d}."
             )
         given = self.frequency is not _own_unit, self.rescale is not _as_it_is
         if given[0] != given[1] or (self.angular_velocities and not given[1]):
@@ -328,7 +332,7 @@ class System:
         actual = np.concatenate([problem.scale * scaled, problem.scale * problem.nu * rates])
         names = [*self.variables, *(f"d{name}/dt" for name in self.variables)]
         for name, one, other in zip(names, expected, actual, strict=True):
-            # NaN rates cannot be compared.
+            # Where a rate is NaN, the comparison is False and nothing is raised.
             if abs(one - other) > _ROUNDING * float(np.max(np.abs(expected))):
                 leading = ", ".join(self.variables[: self.angular_velocities]) or "none"
                 raise WrongScaling(
@@ -347,7 +351,7 @@ class System:
         return np.where(np.isfinite(rates), rates, math.nan)
 
     def rates(self, states: Array, parameters: Sequence[float] | Array) -> Array:
-        """Return the field at states.
+        """Return the rates f(y, p) at states.
 
         Parameters
         ----------
@@ -386,21 +390,22 @@ class System:
         level : Level
             Level of the run, see `Level.longest_step`.
         duration : float
-            Duration of the motion, in units of 1/ν.
+            Duration of the motion, of either sign, in units of 1/ν.
         max_step : float, default ∞
             A smaller limit, positive, in units of 1/ν.
 
         Returns
         -------
         float
-            The longest step, in units of 1/ν.
+            The longest step, positive, in units of 1/ν: at most `max_step` and |duration|, or a hundredth of |duration|
+            for a field with functions.
         """
         part = LONGEST if self.recursion.functions else 1.0
         return level.longest_step(min(max_step, part * abs(duration)))
 
     @cached_property
     def expressions(self) -> list[Node]:
-        """The rates of variables and functions as recorded expressions, see `field_values`."""
+        """The rates of the variables, then those of the functions, as recorded expressions, see `field_values`."""
         return expressions(self.field, len(self.variables), len(self.parameters))
 
     def rates_with_rounding(self, y: Array, parameters: Array) -> tuple[Array, Array]:
@@ -434,7 +439,7 @@ class System:
         """Return the mean round-off errors of the rates at states, without those that a perturbed start reveals.
 
         A rate that is the difference of much larger numbers is wrong by more than a rounding of itself or of the state.
-        A system with `rescale` is integrated in units in which all terms are O(1), so that its rates are not.
+        A system with `rescale` is integrated in units in which all terms are O(1), so none of its rates cancels.
 
         Parameters
         ----------
@@ -482,7 +487,7 @@ class System:
 
     @cached_property
     def with_rounding(self) -> System:
-        """The same system with a constant error of each rate, given by further parameters.
+        """The same system with a constant added to each rate, its round-off error, given by a further parameter.
 
         Its orbits show how much the round-off of the rates matters.
         """
@@ -570,7 +575,7 @@ class System:
 
     @cached_property
     def transverse_variation(self) -> Kernel:
-        """Kernel of one orbit with its variational equations, without the column along the motion."""
+        """Kernel of one orbit with d − 1 columns of its variational equations, without the one along the motion."""
         return self._vary("transverse_variation", len(self.variables) - 1, ahead=True)
 
     @cached_property
@@ -628,7 +633,7 @@ class System:
         parameters : sequence of float, shape (q,), optional
             Values of the parameters.  By default those of the example.
         **values : float
-            Values of single parameters by name, any finite numbers, which replace these.
+            Values of single parameters by name, any finite numbers, which replace those of `parameters`.
 
         Returns
         -------
@@ -638,14 +643,14 @@ class System:
         Raises
         ------
         InvalidParameter
-            If there is no parameter of this name, or a value is not a finite number.
+            If there is no parameter of a name, or `parameters` are not q finite numbers.
         """
         what, names = f"{self.title}: the parameters", self.parameters
         given = _numbers(what, names, self.example[1] if parameters is None else parameters)
         for name in values:
             if name not in names:
                 raise InvalidParameter(
-                    f"{self.title} has no parameter {name}: choose one of {', '.join(names) or 'none'}."
+                    f"{self.title} has no parameter {name}. Allowed names: {', '.join(names) or 'none'}."
                 )
         return ParametrizedSystem(self, _numbers(what, names, (dict(zip(names, given, strict=True)) | values).values()))
 
@@ -657,7 +662,7 @@ class System:
 
     @property
     def arguments(self) -> tuple[str, ...]:
-        """Names of the variables in ASCII, as commands and sweeps take them: w1 for ω1, g1 for γ1."""
+        """Names of the variables with w for ω and g for γ, as commands and sweeps take them: w1 for ω1, g1 for γ1."""
         return tuple(name.replace("ω", "w").replace("γ", "g") for name in self.variables)
 
 
@@ -709,7 +714,7 @@ def _modules() -> tuple[ModuleType, ...]:
 
 
 def declarations(name: str) -> list[object]:
-    """Return all objects that the modules of the package define under a name.
+    """Return the objects that the modules of the package hold under a name.
 
     Parameters
     ----------
@@ -726,18 +731,18 @@ def declarations(name: str) -> list[object]:
 
 @cache
 def systems() -> dict[str, System]:
-    """Return all systems.
+    """Return all systems of this package and of packages that extend it.
 
     Returns
     -------
     dict of str to System
-        By name, the `SYSTEM` of every module that defines one, and those that other packages bring by entry points of
-        the group `hess_mechanics.systems`.
+        By name, the `SYSTEM` of every module that defines one, and the systems of other packages, which are entry
+        points of the group `hess_mechanics.systems`.
 
     Raises
     ------
     InvalidParameter
-        If an entry point names something else than a `System`, or the name of a system is taken.
+        If an entry point is not a `System`, or the name of its system is taken.
 
     Examples
     --------
@@ -771,7 +776,7 @@ class Problem:
     nu : float
         Angular velocity ν > 0, in 1/T; the scaled unit of time is 1/ν.
     scale : ndarray, shape (d,)
-        Factors that turn these states into the user's units.
+        Factors that convert scaled states to the user's units.
     """
 
     system: System
@@ -782,14 +787,14 @@ class Problem:
 
     @classmethod
     def of(cls, body: Body, states: Sequence[Sequence[float] | Array] | Array) -> Problem:
-        """Validate a body and states, and scale them.
+        """Return the scaled problem of a body and initial states, which are validated.
 
         Parameters
         ----------
         body : Body
             The body.
-        states : array_like, shape (n, d)
-            Initial states, in the user's units.
+        states : array_like, shape (n, d) or (d,)
+            Initial states, or a single one, in the user's units.
 
         Returns
         -------
@@ -799,7 +804,8 @@ class Problem:
         Raises
         ------
         InvalidParameter
-            If the body has no equations of motion, a number is not finite, or the scaled numbers overflow.
+            If the body has no equations of motion, the states or parameters do not fit them, a number is not finite, or
+            the scaled numbers overflow.
         """
         if not (isinstance(getattr(body, "system", None), System) and hasattr(body, "parameters")):
             raise InvalidParameter(
@@ -842,7 +848,7 @@ class Problem:
         return replace(self, states=perturb(self.states))
 
     def with_rounding(self, motion: Array) -> Problem:
-        """Return the problem with the round-off errors added to its rates, if these cancel along a motion.
+        """Return the problem with round-off errors added to its rates, if rates cancel along a motion.
 
         Parameters
         ----------

@@ -16,10 +16,11 @@ __all__ = ["LevelCost", "SharedSetting", "first_sufficient", "measure", "truth_p
 
 R = TypeVar("R")
 SharedSetting = Literal["", "share", "cells"]
-"""Part of a plan in which the truth is that of the measured level; empty for none."""
+"""Setting of a plan that the truth takes from the measured level; empty for none."""
 
 _TWICE = {Kind.ROTATION: "share", Kind.LINE: "share", Kind.CURVE: "cells"}
-"""Part of a plan that limits the error of a kind besides the tolerance, so that its own value would hide this error."""
+"""Setting that limits the error of a kind besides the tolerance.  The truth has twice its value: with an equal value
+both results would share this error."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,7 @@ class LevelCost:
     ms : float
         Wall time, in milliseconds.
     error : float
-        Distance from the truth; NaN if the result has nothing to compare.
+        Distance from the truth, ≥ 0; NaN if there is nothing to compare.
     complete : bool
         True if the level computes all points at full resolution.
     """
@@ -52,8 +53,8 @@ class LevelCost:
 def truth_plan(kind: Kind) -> Plan:
     """Return the plan of the reference result with which the levels of a kind of computation are compared.
 
-    Its tolerance is finer than that of `reference`, and it has twice as many returns or points along a curve.  For
-    basins and indicators the level is `aside`: their points lie beside the centres of the cells.
+    Its tolerance is finer than that of `reference`, and rotation numbers, lines and curves have twice as many returns
+    or points.  Its level `is_perturbed`; basins and indicators then take points beside the centres of their cells.
 
     Parameters
     ----------
@@ -79,7 +80,7 @@ def measure(
 ) -> Iterator[LevelCost]:
     """Yield the cost of a computation at each level, the cheapest first.
 
-    A level runs when its cost is requested.
+    A level runs when its cost is requested, the truth for `reference` before the first one.
 
     Parameters
     ----------
@@ -90,9 +91,9 @@ def measure(
     error : callable
         Function error(result, truth) that returns the distance of a result from that of the plan `truth_plan`.
     repeats : int, default 1
-        Number of runs, of which the fastest counts.
-    shared_setting : str, default ""
-        One of `SharedSetting`, for results at other points than those of another level.
+        Number of runs of each level, at least 1, of which the fastest counts.
+    shared_setting : {"", "share", "cells"}, default ""
+        Setting that the truth takes from each level, if results can be compared only at an equal one.
 
     Yields
     ------
@@ -111,7 +112,7 @@ def measure(
         return run(replace(truth_plan(kind), **same))
 
     def exact(plan: Plan) -> R:
-        """Return the truth for the result of a plan; plans that are alike share it."""
+        """Return the truth for the result of a plan; plans with an equal shared setting have the same one."""
         return truth(getattr(plan, shared_setting) if shared_setting else 1.0)
 
     # Run the costliest plan first: if any plan fails, it does.
@@ -129,7 +130,7 @@ def measure(
 
 
 def first_sufficient(samples: Iterable[LevelCost], largest: float) -> str:
-    """Return the first complete level whose error is small enough, or the last level.
+    """Return the name of the first complete level whose error is small enough, or else the last level.
 
     If `largest` is the largest invisible error, more accuracy would make no visible difference.
 
@@ -138,12 +139,12 @@ def first_sufficient(samples: Iterable[LevelCost], largest: float) -> str:
     samples : iterable of LevelCost
         Costs of the levels, the cheapest first.
     largest : float
-        Largest error.
+        Largest error that is small enough.
 
     Returns
     -------
     str
-        Name of the level; "standard" without any measured error.
+        Name of the level; "reference" if no error is small enough, "standard" without any measured error.
     """
     last = STANDARD.name
     for one in samples:

@@ -53,14 +53,14 @@ Sheets = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class AndoyerPlane:
-    """Section g = π/2, ġ > 0, of motions with (M, γ) = f.
+    """The surface g = π/2 of motions with (M, γ) = f, by default crossed while g increases.
 
     Parameters
     ----------
     f : float
         Area integral (M, γ), any finite number, in units I/T.
     sense : {1, -1, 0}, default 1
-        1 for upward crossings, −1 for downward crossings, 0 for both.
+        Crossings that count: with increasing g (1), with decreasing g (−1), or both (0).
 
     References
     ----------
@@ -90,7 +90,7 @@ class AndoyerPlane:
         Returns
         -------
         ndarray of float, shape (6,)
-            Derivatives by the components of the state.
+            Derivatives with respect to the state.
         """
         M, g3 = state[:3], state[5]
         return np.array([*(2.0 * g3 * M[:2]), 2.0 * g3 * M[2] - self.f, 0.0, 0.0, M @ M])
@@ -142,7 +142,7 @@ def coordinates(states: Array) -> Array:
     Returns
     -------
     ndarray, shape (n, 2)
-        Angle l in radians, and L/G from −1 to 1.
+        Angle l in radians, −π to π, and L/G from −1 to 1; L/G = 0 for M = 0.
     """
     G = np.sqrt(np.sum(states[:, :3] ** 2, axis=1))
     return np.column_stack([np.arctan2(states[:, 0], states[:, 1]), states[:, 2] / np.maximum(G, 1e-300)])
@@ -172,7 +172,7 @@ def hess_curve(body: HeavyBody, l: Array) -> Array:
     Parameters
     ----------
     body : HeavyBody
-        The body.
+        The body, r3 ≥ 0.
     l : ndarray, shape (n,)
         Angles l, in radians.
 
@@ -187,12 +187,12 @@ def hess_curve(body: HeavyBody, l: Array) -> Array:
 
 
 def hess_circle(body: HeavyBody) -> Array:
-    """Return the coordinates of all M normal to r, also for r along an axis, where l hardly changes.
+    """Return the coordinates of a full circle of M normal to r, also for r along Ox1, where l is 0 or ±π.
 
     Parameters
     ----------
     body : HeavyBody
-        The body.
+        The body, r2 = 0.
 
     Returns
     -------
@@ -251,7 +251,7 @@ class AndoyerSection(PoincareSection):
 
     @property
     def slowness(self) -> float:
-        """The square root of the ratio of the moments of inertia."""
+        """The square root of the ratio of the largest to the smallest moment of inertia."""
         return math.sqrt(max(self.body.a) / min(self.body.a))
 
     @property
@@ -261,7 +261,7 @@ class AndoyerSection(PoincareSection):
 
     @property
     def integrable(self) -> str:
-        """The integrable case of the body, see `HeavyBody.integrable_at`."""
+        """The name of the integrable case at this f, see `HeavyBody.integrable_at`; empty if there is none."""
         return self.body.integrable_at(self.f)
 
     def at_constant(self, name: str, value: float) -> AndoyerSection:
@@ -282,7 +282,7 @@ class AndoyerSection(PoincareSection):
         Raises
         ------
         InvalidParameter
-            If the value is not finite.
+            If the value is not finite, or the moments are too different.
         NotPositiveDefinite
             If an inverse moment is not positive.
         """
@@ -310,7 +310,7 @@ class AndoyerSection(PoincareSection):
         Returns
         -------
         ndarray, shape (n, 3)
-            Values of G in decreasing order, filled up with NaN.
+            Values of G in decreasing order, followed by NaN.
 
         Raises
         ------
@@ -343,7 +343,7 @@ class AndoyerSection(PoincareSection):
         states : ndarray, shape (n, 6)
             States (M1, M2, M3, γ1, γ2, γ3).
         possible : ndarray of bool, shape (n,)
-            True for points where motions cross this sheet.
+            True for points where motions cross this sheet; the other states mean nothing.
 
         Raises
         ------
@@ -445,12 +445,12 @@ class AndoyerSection(PoincareSection):
         Parameters
         ----------
         window : ((float, float), (float, float))
-            Corners (l, L/G) of the window.
+            Lower left and upper right corner (l, L/G) of the window.
 
         Returns
         -------
         ndarray, shape (64, 96)
-            1 where this sheet has no motion of this energy, otherwise 0.
+            1 where this sheet has no motion of this energy, otherwise 0; rows have increasing L/G.
         """
         (l0, x0), (l1, x1) = window
         m, n = _CELLS

@@ -25,9 +25,11 @@ def _require_positive(symbol: str, moments: Sequence[float]) -> None:
     for i, value in enumerate(moments, 1):
         if not value > 0:
             name = f"{symbol}{i}"
-            raise NotPositiveDefinite(f"{name} = {value:g}, but a moment of inertia is positive: choose {name} > 0.")
+            raise NotPositiveDefinite(
+                f"{name} = {value:g}, but moments of inertia and their inverses are positive: choose {name} > 0."
+            )
     if max(moments) / min(moments) > MAX_RATIO:
-        raise InvalidParameter(f"The moments of inertia are too different: choose ratios below {MAX_RATIO:g}.")
+        raise InvalidParameter(f"The moments of inertia are too different: choose ratios of at most {MAX_RATIO:g}.")
 
 
 @dataclass(frozen=True)
@@ -39,14 +41,14 @@ class HeavyBody:
     a : tuple of three floats
         Inverse moments of inertia a1, a2, a3 > 0, in units 1/I; their ratios are at most 1e20.
     r : tuple of three floats
-        Direction or position r1, r2, r3 of the centre of mass, any finite numbers.
+        Position (r1, r2, r3) of the centre of mass in any unit, as only μr matters; any finite numbers.
     mu : float
         Weight μ, any finite number; the potential is −μ(r, γ), in units I/T².
 
     Raises
     ------
     InvalidParameter
-        If a parameter is not finite, a or r does not have three numbers, or the moments are too different.
+        If a parameter is not finite, a or r is not a tuple of three numbers, or the moments are too different.
     NotPositiveDefinite
         If a1, a2 or a3 is not positive.
 
@@ -84,9 +86,9 @@ class HeavyBody:
         moments : tuple of three floats
             Moments of inertia I1, I2, I3 with I2 between I1 and I3.
         strength : float
-            The product μ|r|; |r| = 1 and r1, r3 > 0.
-        away : float, optional
-            Angle in radians by which r is rotated in the (r1, r3)-plane away from the direction of the Hess case.
+            The product μ|r|, any finite number, in units I/T²; |r| = 1, and r1, r3 ≥ 0 in the Hess case.
+        away : float, default 0.0
+            Angle in radians by which r is rotated from the direction of the Hess case, positive from Ox1 to Ox3.
 
         Returns
         -------
@@ -96,7 +98,7 @@ class HeavyBody:
         Raises
         ------
         InvalidParameter
-            If I2 is not between I1 and I3, I1 = I3, or an argument is not finite.
+            If I2 is not between I1 and I3, I1 = I3, the moments are too different, or an argument is not finite.
         NotPositiveDefinite
             If a moment is not positive.
 
@@ -109,8 +111,8 @@ class HeavyBody:
         a1, a2, a3 = (1.0 / moment for moment in moments)
         if not (a2 - a1) * (a3 - a2) >= 0.0 or a1 == a3:
             raise InvalidParameter(
-                f"I2 = {moments[1]:g} must lie between I1 = {moments[0]:g} and I3 = {moments[2]:g}, which differ: only "
-                "such a body has circular sections, to which the Hess condition refers."
+                f"I2 = {moments[1]:g} must lie between I1 = {moments[0]:g} and I3 = {moments[2]:g}, which must differ, "
+                "for the Hess condition: choose I1 ≤ I2 ≤ I3 or I1 ≥ I2 ≥ I3, and I1 ≠ I3."
             )
         angle = math.atan2(math.sqrt(abs(a3 - a2)), math.sqrt(abs(a2 - a1))) + away
         return cls((a1, a2, a3), (math.cos(angle), 0.0, math.sin(angle)), strength)
@@ -132,13 +134,13 @@ class HeavyBody:
 
     @property
     def hess_a(self) -> float:
-        """The parameter a = √((a3 − a2)(a2 − a1))/a2 of the reduced equations (`eq01`) on the Hess manifold."""
+        """The size √((a3 − a2)(a2 − a1))/a2 of the parameter a of `eq01` on the Hess manifold; 0 for other a2."""
         a1, a2, a3 = self.a
         return math.sqrt(max(0.0, (a3 - a2) * (a2 - a1))) / a2
 
     @property
     def is_hess(self) -> bool:
-        """True if the Hess condition (`gess-*1`) holds to round-off."""
+        """True if the Hess condition (`gess-*1`) holds, to round-off for r1 and r3; also for r = 0."""
         a1, a2, a3 = self.a
         r1, r2, r3 = self.r
         if (a2 - a1) * (a3 - a2) < 0.0:
@@ -147,7 +149,7 @@ class HeavyBody:
         return r2 == 0.0 and abs(left - right) <= 1e-14 * (left + right)
 
     def integrable_at(self, f: float) -> str:
-        """Return the name of the integrable case of the motions with the area integral f.
+        """Return the name of the integrable case to which the motions with the area integral f belong.
 
         Parameters
         ----------
@@ -268,7 +270,7 @@ def frequency(y: Array, p: Array) -> Array | float:
     NotPositiveDefinite
         If a1, a2 or a3 is not positive.
     InvalidParameter
-        If the ratio of two of these is beyond 1e20.
+        If the ratio of two of these exceeds 1e20.
     """
     a = np.asarray(p[:3])
     _require_positive("a", a.tolist())

@@ -44,7 +44,8 @@ def _tilt(body: HeavyBody) -> tuple[float, float]:
 def share_of(body: HeavyBody) -> float:
     """Return the share with which `Bridge.of_suslov` restores the moments of a heavy body in the Hess case.
 
-    Above 1 the body is not rigid and cannot be restored; if r1 r3 < 0 the moments I1 and I3 are exchanged.
+    It restores them only for a share in (0, 1].  A share above 1 belongs to a body that is not rigid, a share of 0 to
+    one with I2 ≥ I1, I3.  If r1 r3 < 0 the moments I1 and I3 are exchanged.
 
     Parameters
     ----------
@@ -54,7 +55,7 @@ def share_of(body: HeavyBody) -> float:
     Returns
     -------
     float
-        The share, positive.
+        The share, ≥ 0.
 
     Raises
     ------
@@ -102,7 +103,7 @@ class Bridge:
         Parameters
         ----------
         heavy : HeavyBody
-            Body in the Hess case.
+            Body in the Hess case, r nonzero.
 
         Returns
         -------
@@ -130,8 +131,8 @@ class Bridge:
         ----------
         hess : HessBody
             Body of the Suslov–Hess case.
-        share : float, optional
-            Choice of the free moment of the heavy body in (0, 1]; for |a| < 1 it is a rigid body.
+        share : float, default 0.5
+            Choice of the free moment of the heavy body, 0 < share ≤ 1, see Notes; a rigid body if |a| < 1.
 
         Returns
         -------
@@ -141,7 +142,7 @@ class Bridge:
         Raises
         ------
         InvalidParameter
-            If share is not in (0, 1].
+            If share is not in (0, 1], or the moments are too different.
         NotPositiveDefinite
             If a moment of the heavy body is not positive.
 
@@ -224,6 +225,11 @@ class Bridge:
         -------
         ndarray of float, shape (n,)
             Largest difference of any component of (w, n), or |a1' M3'| if that is larger, in units b = 1.
+
+        Raises
+        ------
+        NoField
+            If b = 0.
         """
         difference = self.hess.in_units_of_b(self.to_reduced(states)) - reduced
         s, c = _tilt(self.heavy)
@@ -287,21 +293,21 @@ def largest_area_integral(weight: float, I2: float, h: float) -> float:
     Parameters
     ----------
     weight : float
-        The product μ|r|, nonzero.
+        The product μ|r|, nonzero, in units I/T².
     I2 : float
-        Middle moment of inertia, positive.
+        Middle moment of inertia, positive, in units I.
     h : float
-        Energy H, above −|weight|.
+        Energy H, above −|weight|, in units I/T².
 
     Returns
     -------
     float
-        The largest area integral.
+        The largest |(M, γ)|, in units I/T.
 
     Raises
     ------
     OutsideRegion
-        If the energy is too low.
+        If h ≤ −|weight|.
     """
     return f_max(h / abs(weight)) * math.sqrt(abs(weight) * I2)
 

@@ -59,6 +59,8 @@ def exact_motion(a: float, start: tuple[float, ...], duration: float, count: int
 
     Raises
     ------
+    InvalidParameter
+        If a number is not finite.
     WorkLimit
         If the motion needs too many steps.
     """
@@ -136,7 +138,7 @@ def run_free(
     InvalidParameter
         If a number is out of range.
     WorkLimit
-        If the motion needs too many steps, or too many projections.
+        If the motion needs too many steps or projections, or exceeds the range of double precision.
     """
     level = as_level(accuracy)
     times = as_read_only(np.linspace(0.0, duration, count))
@@ -164,7 +166,7 @@ def run_free(
             state, problem.parameters, piece, level.order, level.tolerance, longest, MAX_STEPS, rows
         )
         if steps < 0:
-            raise WorkLimit(f"This motion needs more than {MAX_STEPS} steps: choose a shorter time span.")
+            raise WorkLimit(f"This motion needs more than {MAX_STEPS} steps or overflows: choose a shorter time span.")
         require_finite_states(rows)
         total += steps
         out[first[i] : first[i + 1]] = rows[:-1]
@@ -187,7 +189,7 @@ class SuslovDistance:
     constrained : ndarray, shape (n,)
         Distance of the motion that is held on the manifold, in units b = 1.
     free : ndarray, shape (n,)
-        Distance of the motion that is left free, in units b = 1.
+        Distance of the motion without projection, in units b = 1.
     error : float
         Error estimate of the Suslov motion, in its own units.
     """
@@ -250,7 +252,7 @@ class LeakGrowth:
     per_period : float
         Growth of ln |(r, M)| per period.
     first : int
-        Number of the first period measured.
+        Number of the first period measured, from 0.
     periods : int
         Number of periods measured, at least 2.
     """
@@ -291,7 +293,7 @@ class Leak:
         """The growth of (r, M) while it is exponential; None if that lasts less than two periods.
 
         It is the slope of ln |(r, M)| against the number of the period, in a least-squares fit of a straight line plus
-        a function of that period.
+        a periodic function.
         """
         off, samples = self.run.offset, self.samples
         rows = (off.size - 1) // samples
@@ -309,7 +311,7 @@ class Leak:
 
     @property
     def side(self) -> tuple[int, bool]:
-        """The sign of (r, M) when it becomes visible (0: never), and True if it does not change afterwards."""
+        """The sign of (r, M) when it becomes visible, and whether it is kept afterwards; (0, True) if it never does."""
         off = self.run.offset[np.abs(self.run.offset) > _STRAIGHT[1]]
         return (int(np.sign(off[0])), bool(np.all(off * off[0] > 0.0))) if off.size else (0, True)
 
@@ -321,12 +323,12 @@ class Leak:
         per_period : float
             Growth of ln |(r, M)| per period of n3.
         ends : (float, float)
-            Values of lg |(r, M)| at both ends.
+            Values of log10 of the leak, see `FreeRun.offset`, at both ends.
 
         Returns
         -------
         list of ndarray, shape (2, 2)
-            Points (t, lg |(r, M)|) of the line; empty if there is no exponential part.
+            Points (t, log10 of the leak) of the line; empty if there is no exponential part, or `per_period` is 0.
         """
         if self.growth is None or per_period == 0.0:
             return []
@@ -338,7 +340,7 @@ class Leak:
 
 
 def exact_growth(theta: CircleMap) -> float:
-    """Return the growth of ln |(r, M)| in one period of n3 on the stable limit cycle.
+    """Return the growth of ln |(r, M)| in one period of n3 along the stable limit cycle.
 
     Parameters
     ----------
@@ -348,6 +350,6 @@ def exact_growth(theta: CircleMap) -> float:
     Returns
     -------
     float
-        The growth, ≥ 0; 0 without cycles.
+        The growth, ≥ 0; 0 if the map is not hyperbolic.
     """
     return abs(theta.fixed_points[0].log_multiplier) if theta.fixed_points else 0.0

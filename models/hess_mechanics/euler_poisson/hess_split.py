@@ -1,8 +1,8 @@
-"""Split of the separatrices of the Hess manifold: one curve in the Hess case, two curves outside it.
+"""Split of the separatrices of the Hess manifold: they are one curve in the Hess case, and two curves outside it.
 
 If the torus of the Hess manifold at H = h, F1 = f has two limit cycles, both are saddles of the section: one repels
-along the manifold, the other attracts along it.  In the Hess case the unstable manifold of the one and the stable
-manifold of the other are the Hess curve x = x(l) between them.  If r is rotated by an angle ε, they differ in their
+along the manifold, the other attracts along it.  In the Hess case the unstable manifold of the first and the stable
+manifold of the second are the Hess curve x = x(l) between them.  If r is rotated by an angle ε, they differ in their
 heights x = L/G at the l half-way between the two saddles of the Hess case: this difference is the split.
 """
 
@@ -93,7 +93,7 @@ class Saddles:
     attracts : ndarray, shape (m, 2)
         Points (l, L/G) of the cycle that attracts along it.
     l : float
-        Angle half-way between them, the shorter way round, in radians.
+        Angle half-way between their first points, the shorter way round, in radians.
     """
 
     repels: Array
@@ -141,7 +141,11 @@ def saddles(torus: HessTorus, accuracy: Accuracy) -> Saddles:
     Raises
     ------
     OutsideRegion
-        If the torus has no limit cycles, or one does not cross the section.
+        If the torus does not exist or does not have two limit cycles, or one of them does not cross the section.
+    Separatrix
+        If the torus is the separatrix, h = 1 and f = 0 in units b = 1.
+    NoField
+        If the strength is 0.
     NotConverged
         If Newton's method does not find a cycle in the section.
     """
@@ -196,7 +200,11 @@ def split_at(torus: HessTorus, away: float, accuracy: Accuracy) -> Split:
     Raises
     ------
     OutsideRegion
-        If the torus has no limit cycles.
+        If `saddles` does not find two limit cycles in the section.
+    Separatrix
+        As `saddles`.
+    NoField
+        As `saddles`.
     NotConverged
         If a saddle is not found, or a separatrix ends too early.
     """
@@ -207,7 +215,7 @@ def split_at(torus: HessTorus, away: float, accuracy: Accuracy) -> Split:
         value, error = split(unstable, stable, 0, known.l)
     except NotConverged as reason:
         raise NotConverged(
-            "A separatrix ends before it is half-way to the other saddle: choose a smaller ε, closer to the Hess case."
+            "A separatrix ends before it is half-way to the other saddle: choose a smaller |ε|, nearer the Hess case."
         ) from reason
     return Split(away, known.l, value, error)
 
@@ -222,7 +230,7 @@ def _towards(map_: ReturnMap, points: Array, l: float, stable: bool) -> Manifold
     ):
         raise NotConverged(
             "The limit cycles of the Hess manifold are not found as saddles of the section: choose a "
-            "smaller ε, or other h and f."
+            "smaller |ε|, or other h and f."
         )
     sheet = map_.section
     assert isinstance(sheet, AndoyerSection)
@@ -241,12 +249,12 @@ def _towards(map_: ReturnMap, points: Array, l: float, stable: bool) -> Manifold
 
 
 def slope_of(close: Sequence[Split]) -> tuple[float, float]:
-    """Return the derivative of the split by the angle ε at ε = 0, by fourth-order differences.
+    """Return the derivative of the split with respect to the angle ε at ε = 0, by fourth-order differences.
 
     Parameters
     ----------
     close : sequence of Split
-        Splits at e, −e, 2e, −2e.
+        Four splits, at ε = e, −e, 2e, −2e.
 
     Returns
     -------

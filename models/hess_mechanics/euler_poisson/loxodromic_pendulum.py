@@ -11,7 +11,7 @@ middle axis: its track is a loxodrome.  Two corrections to the paper: ±a13 K is
 (`klas-gess-4`), and the constant angle θ (`klas-gess-3`) is not the nutation angle, which is l.
 
 The motion is computed from the reduced Suslov–Hess equations (`eq01`), that is, on the invariant manifold: for h > 1
-solutions of the Euler–Poisson equations depart from it by a factor e^{2πa} per turn.
+solutions of the Euler–Poisson equations depart from it by a factor e^{2π|a|} per turn.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ from hess_mechanics.suslov_hess.equations import WITH_ATTITUDE
 __all__ = ["SETTLING_TIME", "LoxodromicMotion", "LoxodromicPendulum", "loxodromic_motion"]
 
 SETTLING_TIME = 20.0
-"""Time on the separatrix, in units b = 1, after which the centre of mass is within e^−20 of the top."""
+"""Time on the separatrix, in units b = 1, after which the centre of mass is within 4e^−20 rad of the top."""
 _MOST = 4000
 _AT_THE_POLE = 0.02
 """Distance from the pole below which the direction of the track is not measured."""
@@ -53,7 +53,7 @@ class LoxodromicPendulum:
     Parameters
     ----------
     body : HeavyBody
-        Body in the Hess case with μ > 0, |r| = 1.
+        Body in the Hess case with μ > 0 and |r| = 1, which is not checked.
     h : float
         Energy in units of μ, H = h μ, h > −1; h = 1 is the separatrix.
     l : float
@@ -64,7 +64,7 @@ class LoxodromicPendulum:
     OutsideRegion
         If h ≤ −1.
     InvalidParameter
-        If the body has no field or is not in the Hess case, or l is not in (0, π).
+        If the body is not in the Hess case, μ ≤ 0, a number is not finite, or l is not in (0, π).
 
     References
     ----------
@@ -86,12 +86,15 @@ class LoxodromicPendulum:
         as_a(HeavyBody, self.body)
         require_finite(h=self.h, l=self.l)
         if not self.body.is_hess or not self.body.mu > 0.0:
-            raise InvalidParameter("A loxodromic pendulum needs a field and the Hess condition: choose μ > 0.")
+            raise InvalidParameter(
+                "A loxodromic pendulum needs μ > 0 and the Hess condition: choose a body such as "
+                "HeavyBody.hess((1.0, 1.5, 2.0), 1.0)."
+            )
         if not self.h > -1.0:
             raise OutsideRegion(f"h = {self.h:.12g} is not above the lowest energy: choose h > −1.")
         if not 0.0 < self.l < math.pi:
             raise InvalidParameter(
-                f"l = {self.l:g}: the middle axis stays at a pole and has no track. Choose 0 < l < π."
+                f"l = {self.l:g} is out of range: choose 0 < l < π. At 0 and π the middle axis stays at a pole."
             )
 
     @cached_property
@@ -106,12 +109,12 @@ class LoxodromicPendulum:
 
     @property
     def frequency_unit(self) -> float:
-        """The unit of frequency √(a2 μ): in units b = 1 time is t√(a2 μ)."""
+        """The unit of frequency √(a2 μ), in 1/T: in units b = 1 time is t√(a2 μ)."""
         return self.bridge.hess.frequency_unit
 
     @property
     def angle(self) -> float:
-        """The angle θ between the track and the plane of the circular section, in radians (`klas-gess-3`).
+        """The angle θ between the track of the middle axis and the meridians through ±e, in radians (`klas-gess-3`).
 
         sin θ = 1/√(1 + a²).
         """
@@ -131,7 +134,7 @@ class LoxodromicPendulum:
 
     @property
     def principal(self) -> Array:
-        """The reflection (3, 3) from (n1, n2, n3) to principal axes, v @ principal."""
+        """The matrix (3, 3) of a reflection: v @ principal has the components of v = (n1, n2, n3) in principal axes."""
         return self.bridge.from_reduced(np.hstack([np.zeros((3, 2)), np.eye(3)]))[:, 3:]
 
     def l_at(self, swing: Array) -> Array:
@@ -173,14 +176,14 @@ class LoxodromicPendulum:
         Parameters
         ----------
         to_the_pole : float
-            Smallest distance from the poles in radians.
+            Distance from both poles, in radians, at which the curve ends, between 0 and π/2.
         turns : float
-            Largest number of windings to either side.
+            Largest number of windings to either side; if they do not reach both ends, the curve has this many.
 
         Returns
         -------
         tuple of two floats
-            First and last α in radians.
+            Both ends α, in radians; for a < 0 the first may be the larger one.
         """
         most = 2.0 * math.pi * turns
         reach, middle = -math.log(math.tan(0.5 * to_the_pole)), math.log(math.tan(0.5 * self.l))
@@ -194,7 +197,7 @@ class LoxodromicPendulum:
         Parameters
         ----------
         duration : float
-            Time in the units of the body.
+            Time in the units of the body; negative: backward, without the limit.
 
         Returns
         -------
@@ -214,9 +217,9 @@ class LoxodromicMotion(ShortRepr):
     pendulum : LoxodromicPendulum
         The pendulum.
     times : ndarray of float, shape (n,)
-        Times in the units of the body.
+        Times in the units of the body, up to `SETTLING_TIME` in units b = 1 on the separatrix.
     attitude : Attitude
-        The attitude, with axes in principal axes.
+        The attitude: γ, e and γ × e in the principal axes of the body.
     orbit : Orbit
         The orbit of `WITH_ATTITUDE`, in units b = 1.
     centre : ndarray of float, shape (n, 3)
@@ -234,7 +237,7 @@ class LoxodromicMotion(ShortRepr):
 
     @cached_property
     def swing(self) -> Array:
-        """The angle α (n,) of the centre of mass from its lowest point, in radians."""
+        """The angle α (n,) of the centre of mass from its lowest point, in radians, continued over full turns."""
         return as_read_only(np.unwrap(np.arctan2(-self.centre[:, 2], self.centre[:, 0])))
 
     @cached_property
@@ -249,10 +252,10 @@ class LoxodromicMotion(ShortRepr):
 
     @cached_property
     def angles(self) -> tuple[Array, Array]:
-        """Times and angles θ (m,) between consecutive samples, measured from the middle axis on the sphere alone.
+        """Times (m,) midway between samples, and θ (m,) there in radians, measured on the track of the middle axis.
 
         A loxodrome meets all meridians, the great circles through ±e, at one angle, whose tangent between two of its
-        points is Δ longitude / Δ ln tan(l/2).  Samples near the poles and near reversals of the axis are left out.
+        points is |Δ longitude / Δ ln tan(l/2)|.  Samples near the poles and near reversals of the axis are left out.
         """
         m, l = self.middle, self.l
         longitude = np.unwrap(np.arctan2(m[:, 0], m[:, 2]))
@@ -268,14 +271,15 @@ class LoxodromicMotion(ShortRepr):
 
 
 def loxodromic_motion(pendulum: LoxodromicPendulum, duration: float, accuracy: Accuracy) -> LoxodromicMotion:
-    """Return the motion of a loxodromic pendulum from its lowest point.
+    """Return the motion of a loxodromic pendulum that starts at its lowest point.
 
     Parameters
     ----------
     pendulum : LoxodromicPendulum
         The pendulum.
     duration : float
-        Time, in the units of the body.
+        Time, in the units of the body, nonzero; negative: backward.  A positive one is cut at `SETTLING_TIME` on
+        the separatrix.
     accuracy : str or Level
         Accuracy level or its name, see `level`.
 
@@ -287,7 +291,7 @@ def loxodromic_motion(pendulum: LoxodromicPendulum, duration: float, accuracy: A
     Raises
     ------
     InvalidParameter
-        If the duration is not finite or is 0.
+        If the duration is not finite, 0 or too short.
     WorkLimit
         If the motion needs too many samples or steps.
 

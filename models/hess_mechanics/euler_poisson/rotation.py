@@ -1,8 +1,8 @@
 """Rotation numbers of the orbits that start on a line across the section g = π/2 and lie on closed curves.
 
-A closed curve that does not wind round, in l or about the centre, has no rotation number: its points return in that
-angle, and their mean rotation is 0.  An orbit that winds so slowly that it cannot be distinguished from 0 counts as one
-of these.
+A closed curve that does not wind round in l, or about the first end of the line, has no rotation number: its points
+librate in that angle, and their mean rotation is 0.  An orbit whose rotation number is 0 within `RESOLUTION` counts as
+such a libration.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from hess_mechanics.numerics.results import Array
 __all__ = ["RESOLUTION", "RotationProfile", "rotation_along", "states_on_line"]
 
 RESOLUTION = 1e-4
-"""Largest difference of the rotation numbers of both halves of an orbit on a closed curve."""
+"""Largest spread of the rotation numbers of an orbit on a closed curve and of its two halves, in turns."""
 _FEWEST = 20
 
 LineEnds = tuple[tuple[float, float], tuple[float, float]]
@@ -31,18 +31,19 @@ LineEnds = tuple[tuple[float, float], tuple[float, float]]
 class RotationProfile(Result):
     """Rotation numbers of orbits that start on a line; the result of `rotation_along_line`.
 
-    They lie in (−½, ½] or, if all of them are within half a turn of one another modulo 1, in an unbroken range.
+    They lie in (−½, ½] or, if all of them are within half a turn of one another modulo 1, in an unbroken range with its
+    middle in (−½, ½].  Positions on the line are l, in radians, if turns are counted about the first end, else L/G.
 
     Attributes
     ----------
     along : tuple of ndarray
-        Positions on the line where orbits start, each in parts without a gap.
+        Positions of the starts of orbits with a rotation number, in parts without a gap or a jump of ρ.
     rho : tuple of ndarray
         Rotation numbers in turns per return, in the same parts.
     librations : ndarray, shape (n,)
-        Starts of closed curves that do not wind round, and so have no rotation number.
+        Positions of the starts on closed curves that do not wind round, and so have no rotation number.
     chaotic_intervals : ndarray, shape (n, 2)
-        Parts of the line whose orbits do not lie on closed curves, each from one position to another.
+        First and last position of each part of the line whose orbits do not lie on closed curves.
     """
 
     along: tuple[Array, ...]
@@ -51,7 +52,7 @@ class RotationProfile(Result):
     chaotic_intervals: Array
 
     def labels(self) -> Labels:
-        """Return ρ over the position on the line, with NaN in each gap.
+        """Return ρ over the position on the line, with NaN for both between two parts.
 
         Returns
         -------
@@ -69,7 +70,7 @@ class RotationProfile(Result):
 
     @property
     def points(self) -> Array:
-        """All positions on the line, shape (n,)."""
+        """All positions with a rotation number, shape (n,)."""
         return np.concatenate([np.empty(0), *self.along])
 
     @property
@@ -79,7 +80,11 @@ class RotationProfile(Result):
 
     @property
     def extremum(self) -> tuple[float, float] | None:
-        """Position and value of an extremum of ρ inside the line; None if ρ is monotonic."""
+        """Position and value of the minimum of ρ, else of the maximum, if inside the line; None if ρ is monotonic.
+
+        An extremum counts if it is not among the first or last two numbers and differs from both ends by more than
+        3 `RESOLUTION`.
+        """
         along, rho = self.points, self.numbers
         for i in (int(np.argmin(rho)), int(np.argmax(rho))) if rho.size else ():
             if 2 <= i <= len(rho) - 3 and min(abs(rho[i] - rho[0]), abs(rho[i] - rho[-1])) > 3 * RESOLUTION:
@@ -87,19 +92,19 @@ class RotationProfile(Result):
         return None
 
     def distance(self, exact: RotationProfile) -> float:
-        """Return the median difference from another profile, where both know ρ.
+        """Return the median of |ρ − ρ'| modulo 1 over the positions of this profile, with ρ' from another profile.
 
-        Elsewhere the line crosses chaotic seas.
+        ρ' is interpolated linearly between the positions of the other profile, also across its gaps.
 
         Parameters
         ----------
         exact : RotationProfile
-            The other profile.
+            The other profile, with increasing positions.
 
         Returns
         -------
         float
-            The difference in turns per return; NaN if one of them knows no ρ.
+            The median, in turns per return; NaN if one of the profiles has no rotation numbers.
         """
         if not (self.numbers.size and exact.numbers.size):
             return math.nan
@@ -108,7 +113,7 @@ class RotationProfile(Result):
 
 
 def states_on_line(section: AndoyerSection, ends: LineEnds, count: int) -> tuple[tuple[float, tuple[float, ...]], ...]:
-    """Return the states of a section at equidistant points of a line.
+    """Return the states of a section at the centres of equal parts of a line.
 
     Parameters
     ----------
@@ -117,12 +122,12 @@ def states_on_line(section: AndoyerSection, ends: LineEnds, count: int) -> tuple
     ends : LineEnds
         The two ends (l, L/G) of the line; l in radians.
     count : int
-        Number of points.
+        Number of parts.
 
     Returns
     -------
     tuple of (float, tuple of float)
-        Share of the way along the line, 0 to 1, and the state, of each point with motion.
+        Share of the way along the line, between 0 and 1, and the state, of each point that motions cross.
 
     Raises
     ------
@@ -152,15 +157,16 @@ def rotation_along(
     ends : LineEnds
         The two ends (l, L/G) of the line; l in radians.
     shares : sequence of float
-        Share of the way along the line of each start, out of `count` equidistant ones.
+        Share of the way along the line of each start, increasing, as from `states_on_line`.
     orbits : sequence of ndarray, shape (n, 2)
-        Crossings (l, L/G) of each orbit.
+        Crossings (l, L/G) of each orbit; orbits with fewer than 20 are left out.
     about_first : bool
         Count turns about the first end, over l; otherwise turns of the angle l, over L/G.
     count : int
-        Number of equidistant starts.
+        Number of starts on the whole line, also of those without motion.
     resolved : float, default RESOLUTION
-        Largest difference of the rotation numbers of both halves of an orbit on a closed curve.
+        Largest spread of the rotation numbers of an orbit on a closed curve and of its halves; a rotation number of at
+        most this size counts as 0.
 
     Returns
     -------

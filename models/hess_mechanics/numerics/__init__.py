@@ -1,1 +1,1 @@
-"""Compilation, accuracy levels, Taylor series, events, batches."""
+"""Numerical methods: compiled Taylor series, accuracy levels and measured errors, arguments and results."""

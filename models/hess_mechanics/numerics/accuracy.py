@@ -106,20 +106,21 @@ class Level:
         Parameters
         ----------
         limit : float
-            The limit, for example the duration of the motion, in any unit of time.
+            The limit, for example the duration of the motion, of either sign and in any unit of time.
 
         Returns
         -------
         float
-            The longest step, in the unit of the limit.
+            The longest step, ≥ 0, in the unit of the limit.
         """
         return abs(limit) * (_OTHER_STEP if self.is_perturbed else 1.0)
 
     def tighter(self) -> Level:
-        """Return the same level with a hundredth of the tolerance, to measure the error of this level.
+        """Return the same level with about a hundredth of the tolerance, to measure the error of this level.
 
-        The order differs too, so that a motion that fits into one step is not compared with itself; and so does the
-        start, so that the two runs do not make the same roundings.
+        The tolerance stops at the floor of double precision; for a level at the floor it is a thirtieth.  The order
+        differs too, so that a motion that fits into one step is not compared with itself; and so does the start, so
+        that the two runs do not make the same roundings.
 
         Returns
         -------
@@ -232,7 +233,7 @@ class Meaning:
     Attributes
     ----------
     promise : str
-        Quantity that `Plan.promise` limits; empty if more cells, not more digits, make the result better.
+        Quantity that `Plan.promise` limits or counts; empty if more cells, not more digits, make the result better.
     share, cells : str, default ""
         Quantities that `Plan.share` and `Plan.cells` scale; empty if each level computes all.
     """
@@ -272,9 +273,10 @@ class Plan:
     level : Level
         Order and tolerance of the Taylor steps, under the name of the level.
     promise : float
-        Promised largest error, positive, see `MEANINGS`.
+        Promised largest error, or for sections the number of crossings, positive, see `MEANINGS`; without a meaning
+        there for basins and indicators.
     share : float, default 1
-        Fraction of the requested crossings, turns, time or points that is computed, positive.
+        Fraction of the requested crossings, turns, time or points that is computed, positive; see `MEANINGS`.
     cells : float, default 1
         Number of cells along each side of a grid relative to `standard`, positive; likewise phases of a map, orbits or
         tori on a line.
@@ -413,8 +415,8 @@ def levels_table() -> tuple[tuple[str, ...], ...]:
     Returns
     -------
     tuple of tuple of str
-        The head, then for each kind its name, a cell for each level, and the quantity that is promised.  A level that
-        changes nothing for a kind refers to the level before.
+        The head, then for each kind its name, a cell for each level, and the quantity that is promised.  A level with
+        the same numbers as an earlier one refers to that one.
 
     Examples
     --------

@@ -1,7 +1,7 @@
 # mypy: allow-untyped-defs
 """The angle of a vector, written so that LLVM computes several of them at once.  Not for users.
 
-The function of the C library takes one vector at a time, and most of the time of a circle map.
+`atan2` of the C library handles one vector at a time, and would take most of the time of a circle map.
 """
 
 from __future__ import annotations
@@ -20,10 +20,11 @@ _SMALLEST = 1e-300
 def angle_of(y, x):
     """Return the angle of the vector (x, y) from the first axis, in [−π, π], to four units in the last place.
 
-    The larger coordinate must be between 1e-300 and 1e300; the angle of (0, 0) is 0.
+    The size of the larger coordinate must be between 1e-300 and 1e300; the angle of (0, 0) is 0.
 
-    In the octant of the vector's image arctan q = arctan c + arctan t with t = (q − c)/(1 + c q) and the nearest
-    c = 0, tan π/8 or 1.  Then |t| ≤ tan π/16, where 11 terms of the Taylor series are enough.
+    The vector is reflected to the first octant, where q is the ratio of its smaller to its larger coordinate.  There
+    arctan q = arctan c + arctan t with t = (q − c)/(1 + c q) and the nearest angle of c = 0, tan π/8 or 1.  Then
+    |t| ≤ tan π/16, where 11 terms of the Taylor series are enough.
     """
     width, height = abs(x), abs(y)
     smaller, larger = min(width, height), max(width, height, _SMALLEST)

@@ -55,7 +55,7 @@ def as_a(kind: type[T], body: object) -> T:
     Raises
     ------
     InvalidParameter
-        If it is not.
+        If it is an instance of another class.
     """
     if not isinstance(body, kind):
         raise InvalidParameter(f"{_short(body)} is not a {kind.__name__}: give a hess_mechanics.{kind.__name__}(…).")
@@ -99,7 +99,7 @@ def as_level_name(accuracy: Accuracy) -> str:
     Raises
     ------
     InvalidParameter
-        If it is not one of the four.
+        If it is not one of the four levels, or if there is no level of this name.
     """
     result = as_level(accuracy)
     if LEVELS.get(result.name) != result:
@@ -125,7 +125,7 @@ def as_number(name: str, value: Any) -> float:
     Raises
     ------
     InvalidParameter
-        If it is not a finite number.
+        If it is not a finite real number; True, False and texts do not count as numbers.
     """
     if isinstance(value, bool) or not isinstance(value, Real):
         raise InvalidParameter(f"{name} = {_short(value)} is not a number; write it like 1.5 or -2e-3.")
@@ -158,7 +158,7 @@ def as_integer(name: str, value: Any, low: int, high: int) -> int:
     Raises
     ------
     InvalidParameter
-        If it is not an integer in this range.
+        If it is not an integer from `low` to `high`, both included; floats, True and False do not count as integers.
     """
     if isinstance(value, bool) or not isinstance(value, Integral) or not low <= int(value) <= high:
         raise InvalidParameter(f"{name} = {_short(value)} is not a whole number from {low} to {high}.")
@@ -166,7 +166,7 @@ def as_integer(name: str, value: Any, low: int, high: int) -> int:
 
 
 def as_parts(name: str, value: Any, count: int | None = None) -> tuple[Any, ...]:
-    """Return the parts of a sequence.
+    """Return the parts of a sequence, or of another iterable, as a tuple.
 
     Parameters
     ----------
@@ -185,7 +185,7 @@ def as_parts(name: str, value: Any, count: int | None = None) -> tuple[Any, ...]
     Raises
     ------
     InvalidParameter
-        If it is not a sequence with this number of parts.
+        If it is not iterable, is a text or a mapping, or does not have this number of parts.
     """
     if isinstance(value, (str, Mapping)) or not np.iterable(value):
         raise InvalidParameter(f"{name} = {_short(value)} is not a sequence{'' if count is None else f' of {count}'}.")
@@ -231,7 +231,7 @@ def as_pairs(name: str, points: Any) -> list[tuple[float, float]]:
 
     Returns
     -------
-    list of tuple[float, float]
+    list of (float, float)
         The points.
 
     Raises
@@ -283,10 +283,11 @@ def as_point(names: tuple[str, ...], point: Any) -> tuple[float, ...]:
 
 
 def check_arguments(function: Callable[P, T]) -> Callable[P, T]:
-    """Return a function that checks its arguments against their annotations first.
+    """Return a function that first checks and converts its arguments according to their annotations.
 
-    Numbers become floats or integers, sequences of numbers become arrays, and a single number counts as one of these.
-    Their shape, and objects that are described by a protocol, such as bodies, are left to the function.
+    Numbers become floats or integers, sequences of numbers become arrays, and a single number counts as such a
+    sequence.  The shape of arrays, and objects that are described by a protocol, such as bodies, are left to the
+    function.  NumPy's warnings about floating-point errors are off while it runs.
 
     Parameters
     ----------
@@ -296,7 +297,7 @@ def check_arguments(function: Callable[P, T]) -> Callable[P, T]:
     Returns
     -------
     callable
-        The function that checks; it raises `InvalidParameter`.
+        The function that checks; it raises `InvalidParameter` if an argument is missing, unknown or of another kind.
     """
     signature = inspect.signature(function)
     kinds: dict[str, Any] = {}
@@ -320,7 +321,7 @@ def check_arguments(function: Callable[P, T]) -> Callable[P, T]:
 
 
 def _fitted(name: str, kind: Any, value: Any) -> Any:
-    """Return a value as its annotation describes it."""
+    """Return a value converted to the type of its annotation.  Raises `InvalidParameter`."""
     if type(value) is kind is not float:
         return value
     if kind == Accuracy:
@@ -424,12 +425,12 @@ def unit_vector(gamma: Sequence[float]) -> tuple[tuple[float, float, float], str
     vector : tuple of three floats
         Unit vector.
     note : str or None
-        Sentence that names the former length; None if it was 1 to round-off.
+        Sentence that states the original length; None if it was 1 up to round-off.
 
     Raises
     ------
     InvalidParameter
-        If γ is 0 or not finite.
+        If γ is not three finite numbers, is 0, or has a length beyond the range of doubles.
 
     Examples
     --------

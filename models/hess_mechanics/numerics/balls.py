@@ -92,7 +92,8 @@ BALL_FUNCTIONS = {name: _of_balls("__pow__" if name == "pow" else name) for name
 def working_precision(bits: int) -> Iterator[Any]:
     """Set the precision of ball arithmetic for the body of a `with` statement.
 
-    One thread at a time: the precision is global.
+    The precision is global, so other threads wait at this statement.  The cap on the terms of power series is restored
+    at the end.
 
     Parameters
     ----------
@@ -119,14 +120,14 @@ def working_precision(bits: int) -> Iterator[Any]:
 
 
 def exact(name: str, value: ExactNumber | Decimal) -> Fraction:
-    """Return a text (1.5, -2e-3, 3/4) or a number as a rational; a double is taken as its shortest decimal.
+    """Return a number, or a text such as 1.5, -2e-3 or 3/4, as a rational; a double is read as its shortest decimal.
 
     Parameters
     ----------
     name : str
         Name of the number, for the message.
     value : str, float, Fraction or Decimal
-        The number, with at most 100 digits and exponents within ±400.
+        The number; numerator and denominator have at most 100 digits and exponents within ±400.
 
     Returns
     -------
@@ -213,7 +214,7 @@ class Enclosure:
 
     @property
     def precision(self) -> float:
-        """Width of the interval, divided by the magnitude of the number if that exceeds 1."""
+        """Width of the interval, divided by the largest magnitude of its ends if that exceeds 1."""
         return float(self.width / max(Fraction(1), abs(self.low), abs(self.high)))
 
     def __repr__(self) -> str:
@@ -229,7 +230,7 @@ class Enclosure:
         Parameters
         ----------
         digits : int, optional
-            Number of digits.  By default enough for decimals that are hardly wider than the interval.
+            Number of significant digits.  By default enough for decimals that are hardly wider than the interval.
 
         Returns
         -------
@@ -256,7 +257,8 @@ class Enclosure:
         Returns
         -------
         (str, str)
-            The lower and the upper decimal, of at most 17 digits.
+            The lower and the upper decimal, with at most 16 significant digits.  Beyond the range of doubles they
+            enclose the interval only as decimals.
         """
         low, high = self.decimals(16)
         if not math.isfinite(float(low)) or not math.isfinite(float(high)):
@@ -305,14 +307,14 @@ def _dyadic(mantissa: Any, exponent: Any) -> Fraction:
 
 
 def to_digits(digits: int, compute: Callable[[Any], ArbBall]) -> Enclosure:
-    """Return the enclosure of a number, with the precision raised until it has enough digits.
+    """Return the enclosure of a number, with the working precision raised until the interval is narrow enough.
 
     Parameters
     ----------
     digits : int
-        Number of digits.
+        Number of digits: `Enclosure.precision` becomes less than 10^−digits.
     compute : callable
-        Function from the library python-flint to the ball.
+        Function compute(library) that returns the ball at the current precision of the library python-flint.
 
     Returns
     -------
@@ -323,6 +325,8 @@ def to_digits(digits: int, compute: Callable[[Any], ArbBall]) -> Enclosure:
     ------
     WorkLimit
         If the number needs more than 16 384 bits.
+    MissingLibrary
+        If python-flint is not installed.
     """
     bits = 128
     while bits <= _MOST_BITS:
@@ -335,19 +339,19 @@ def to_digits(digits: int, compute: Callable[[Any], ArbBall]) -> Enclosure:
 
 
 def series_coefficients(series: Any, terms: int) -> list[ArbBall]:
-    """Return the first coefficients of a power series, with the zeros that python-flint leaves out.
+    """Return the coefficients of a power series, with the zeros at its end that python-flint leaves out.
 
     Parameters
     ----------
     series : arb_series
         The series.
     terms : int
-        Number of coefficients.
+        Number of coefficients, not less than the length of the series.
 
     Returns
     -------
     list of arb
-        The coefficients.
+        The coefficients, from order 0 on.
     """
     coefficients = series.coeffs()
     return [*coefficients, *([0 * series[0]] * (terms - len(coefficients)))]

@@ -28,7 +28,7 @@ LANES = 8 if get_host_cpu_features().get("avx512f") else 4
 def _expansion_of_lanes(recursion: Recursion) -> Callable[..., Any]:
     """Return expand(c, q, parameters, order), which computes the Taylor coefficients c[k, variable, lane].
 
-    q[product, lane] is scratch space.  Only for recursions without auxiliary series and functions.
+    q[product, lane] is scratch space.  Only for recursions without auxiliary series, constants and functions.
     """
     m, n = len(recursion.pairs), recursion.variables
     states = [items(f"c[k, {i}, {lane}]" for i in range(n)) for lane in range(LANES)]
@@ -101,7 +101,7 @@ def ensemble_integrator(recursion: Recursion) -> Callable[..., Any]:
     integrate(states, parameters, times, order, tolerance, longest, max_steps, out, steps, ends) writes the orbits that
     start at the rows of `states` (orbits, d), at the times (n,), monotonic and all ≥ 0 or all ≤ 0, into `out`
     (orbits, n, d).  `steps` and `ends` (orbits,) receive what `taylor_kernels.orbit_integrator` returns for each orbit.
-    Only for fields without functions.
+    Only for recursions without auxiliary series, constants and functions.
     """
     n, m = recursion.variables, len(recursion.pairs)
     expand, check = _expansion_of_lanes(recursion), step_check(recursion)

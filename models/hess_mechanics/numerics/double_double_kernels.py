@@ -54,9 +54,10 @@ def _call(name: str, *arguments: ast.expr) -> ast.Call:
 
 @cache
 def _expansion(recursion: Recursion) -> Callable[..., Any]:
-    """Return expand(c, p, steps), which computes the coefficients c[1 … order, series] from the state in c[0].
+    """Return expand(c, p, steps, inner, q), which computes c[1 … order, series] from the state in c[0].
 
-    steps[k] = unit of time/(k+1).  Auxiliary series that are still unknown are 0, so that products omit their terms.
+    steps[k] = unit of time/(k+1); inner, q : scratch, one number for each product.  Auxiliary series that are still
+    unknown are 0, so that products omit their terms.
     """
     tree = ast.fix_missing_locations(_Doubled().visit(ast.parse(recursion.source)))
     functions = compile_source(compile(tree, "<double_double>", "exec"), **_NAMES, **DOUBLE_DOUBLE_FUNCTIONS)
@@ -116,7 +117,7 @@ def double_double_integrator(recursion: Recursion) -> Callable[..., Any]:
     integrate(state, start, parameters, scale, unit, times, max_steps, out) starts from the state (d,) at the time
     `start` and writes the states at the times (n,), monotonic from `start`, into `out` (n, d).  Times are doubles,
     states and parameters are pairs.  unit : unit of time, a power of two, in which the motion is O(1); scale : (d,),
-    units of the state.  It returns the number of steps, or `STEP_LIMIT_REACHED`.
+    units of the state.  It returns the number of steps; or `STEP_LIMIT_REACHED`, also if a step has no length.
     """
     n, parameters_count = recursion.variables, recursion.parameters
     expand = _expansion(recursion)

@@ -95,7 +95,6 @@ def roots_on_step(e, h, below, end, below_at_end, sense, roots, pieces):
     """Write the roots of e on [0, h], in increasing order, to `roots` and return their number.
 
     sense : 1 for roots where e increases, −1 where it decreases, 0 for both.
-
     below, below_at_end : True if the orbit is below the plane at the two ends; end : e(h).
     pieces : scratch (`_DEPTH` + 2, 2) for the right ends of the remaining pieces, and e there.
     """
@@ -160,7 +159,7 @@ class SurfaceKernels:
     height(y, normal) : returns e(y).
     is_crossing(y, normal) : returns True if a crossing at y counts.
     is_nonlinear : True if e is nonlinear, so that its truncated series is less accurate than those of the state.
-    step_limit(e, h) : returns the largest step up to h on which e is its series.
+    step_limit(e, h) : returns a step of at most h on which the height is its series, without a jump.
     """
 
     along: Callable[..., Any]

@@ -63,7 +63,7 @@ followed as a variable of its own: a quotient then waits for fewer products."""
 
 
 class NotTraceable(InvalidParameter, TypeError):
-    """A field with conditions, or with functions that have no Taylor recursion here."""
+    """A field that cannot be traced: it has conditions, functions not in `FUNCTIONS`, or a wrong number of rates."""
 
 
 ALLOWED = (
@@ -77,8 +77,20 @@ ALLOWED = (
 class Node:
     """An operation; equal operations on a tape are the same object.
 
-    value : value of a "number", index of a "variable", "parameter" or "series"; moves : True if the result changes
-    during a step; started : True if it depends on the values of the variables at the start of a step.
+    Attributes
+    ----------
+    operation : str
+        "number", "variable", "parameter", "series", "start", "negative", an arithmetic sign, the name of a function, or
+        an operation of `Tape.linear`.
+    arguments : tuple of Node
+        The operands.
+    value : object
+        Value of a "number", index of a "variable", "parameter" or "series", signs of the terms of a "sum"; otherwise
+        None or ().
+    moves : bool
+        True if the result changes during a step.
+    uses_start : bool
+        True if it depends on the variables at the start of a step, or on a function of parameters alone.
     """
 
     operation: str
@@ -119,7 +131,7 @@ class Tape:
         raise NotTraceable(f"This field cannot be traced: {x!r} is not a finite number. {ALLOWED}")
 
     def start(self, a: Node) -> Node:
-        """Return the value of a at the start of a step."""
+        """Return the value of a at the start of a step; a itself if it does not change during a step."""
         return self._node("start", (a,), None, False, True) if a.moves else a
 
     def apply(self, operation: str, a: Node, b: Node) -> Node:
@@ -251,7 +263,7 @@ class Symbol:
         self.tape, self.node = tape, node
 
     def combine(self, operation: str, left: Any, right: Any) -> Any:
-        """Return the symbol of an operation on two symbols or numbers."""
+        """Return the symbol of an operation on two symbols or numbers; `NotImplemented` for other operands."""
         if not all(isinstance(x, Symbol | _Number) for x in (left, right)):
             return NotImplemented
         return Symbol(self.tape, self.tape.apply(operation, self.tape.node_of(left), self.tape.node_of(right)))
@@ -289,11 +301,11 @@ class Symbol:
         return self.node.moves
 
     def at_start(self) -> Symbol:
-        """Return its value at the start of a step, see `constant`."""
+        """Return the symbol of the value at the start of a step, see `tracing.constant`."""
         return Symbol(self.tape, self.tape.start(self.node))
 
     def as_positive(self) -> Symbol:
-        """Return the symbol, which has no zero, see `positive`."""
+        """Return this symbol, and record that it has no zero, see `tracing.positive`."""
         self.tape.positive.add(self.node)
         return self
 

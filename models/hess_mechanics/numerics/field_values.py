@@ -1,4 +1,4 @@
-"""Values of a recorded field at a point with bounds on their round-off, or the operation that is undefined there."""
+"""Values of a recorded field at a point with estimates of their round-off, or the operation that is undefined there."""
 
 from __future__ import annotations
 
@@ -23,13 +23,16 @@ _ARITHMETIC: dict[str, Callable[[Any, Any], Any]] = {"+": add, "-": sub, "*": mu
 
 
 class Undefined(ArithmeticError):
-    """An operation of a field has no finite result; the message names it."""
+    """An operation of a field without a result below 1e200; the message names it."""
 
 
 def values_with_rounding(
     nodes: Sequence[Node], names: tuple[Sequence[str], Sequence[str]], y: Sequence[float], p: Sequence[float]
 ) -> list[tuple[float, float]]:
-    """Return the values of expressions, each with an upper bound on its round-off, by running error analysis.
+    """Return the values of expressions, each with an estimate of its round-off, by running error analysis.
+
+    The estimate is a bound to first order for arithmetic.  Functions are evaluated at both ends of the error intervals
+    of their arguments.
 
     Parameters
     ----------
@@ -43,12 +46,12 @@ def values_with_rounding(
     Returns
     -------
     list of (float, float)
-        Value and bound of each expression.
+        Value and estimated round-off of each expression.
 
     Raises
     ------
     Undefined
-        If an operation has no finite result.
+        If an operation has no result, or one whose size is not below 1e200.
     """
     known: dict[Node, tuple[float, float]] = {}
     for node in topological_order(nodes):
@@ -146,7 +149,7 @@ def _text(node: Node, names: tuple[Sequence[str], Sequence[str]]) -> str:
 
 
 def _bare(text: str) -> str:
-    """Return an expression without the parentheses around all of it."""
+    """Return an expression without its outermost parentheses."""
     return text[1:-1] if text[0] == "(" else text
 
 

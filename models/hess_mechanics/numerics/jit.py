@@ -64,7 +64,7 @@ _FOR_ALL = {"numerics", "dynamics"}
 
 
 def _is_own(folder: Path) -> bool:
-    """Return True if the folder belongs to this user, and close it to all others."""
+    """Return True for a folder of this user that no other user may write to; close it to all others."""
     status = folder.lstat()
     if not stat.S_ISDIR(status.st_mode):
         return False
@@ -236,7 +236,7 @@ def _folder_for(module: str) -> Path | None:
 
 
 def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Compile an entry point; its machine code is cached on disk, and it releases the GIL."""
+    """Compile an entry point, which releases the GIL; its machine code is cached on disk if a folder is usable."""
     folder = _folder_for(function.__module__)
     if folder is None:
         return _compiled(function, _OPTIONS)
@@ -249,9 +249,10 @@ def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def with_compile_notice(function: Callable[..., Any], name: str, seconds: float) -> Callable[..., Any]:
-    """Return a kernel that announces its compilation if that is expected to take long.
+    """Return a kernel that logs a warning before its compilation if that is expected to take more than 20 s.
 
-    A long compilation ends between two passes of the compiler if the request is cancelled.
+    `name` and `seconds`, the expected time, appear in the warning.  A long compilation ends between two passes of the
+    compiler if the request is cancelled.
     """
     if seconds > _LONG:
         compiled: Any = getattr(function, "py_func", function)
@@ -297,7 +298,7 @@ def derived_kernel(name: str, source: str, module: str, **names: Any) -> Callabl
     """Return the `kernel` of the function `name` in derived source, which may call the functions in `names`.
 
     `module` is the importable module to which the kernel belongs.  Numba caches only functions in files, so the source
-    is written to the cache folder, under a name that contains its hash.
+    is written to the cache folder, under a name that contains its hash.  Without a usable folder nothing is cached.
     """
     folder = _folder_for(module)
     file, is_stored = f"{name}.py", False

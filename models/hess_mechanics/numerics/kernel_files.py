@@ -40,9 +40,9 @@ class KernelFiles(FunctionCache):  # type: ignore[misc]  # numba has no types
         return self._locks[process]
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """Return the kernel for these argument types; wait for another process that is compiling it.
+        """Return the kernel for these argument types; wait up to a minute for another process that is compiling it.
 
-        Returns None if there is none that can be read; then this process is the one that compiles it.
+        Returns None if no kernel can be read; then this process compiles it.
         """
         overload = self._read(sig, target_context)
         if overload is None:

@@ -128,7 +128,7 @@ class Result(ABC):
         Returns
         -------
         pandas.DataFrame
-            One row per point, with the coordinates as columns.
+            One row per point, with the coordinates and the variables as columns.
 
         Raises
         ------
@@ -164,6 +164,8 @@ class Result(ABC):
         ------
         InvalidParameter
             If there is nothing to draw.
+        ImportError
+            If `hess_explorer` is not installed.
         """
         # Import the backend by name, as pandas does, so that this package does not depend on a user interface.
         return importlib.import_module("hess_explorer.library.drawing").draw_result(self)

@@ -122,7 +122,8 @@ def measured(
     The first run is compared with a more accurate one from a nearby start.  If they differ too much, a still more
     accurate run follows, and so on down to the floor of double precision.  Every second run has the given start, and
     the last one of these is the result.  Each new tolerance needs a single new run.  At the floor, where an error is
-    round-off, two runs agree by chance to a quarter of their error in one case of twelve: a third one follows.
+    round-off, two runs agree by chance to a quarter of their error in one case of twelve: a third one follows if the
+    estimate exceeds `UNSURE`.
 
     Parameters
     ----------
@@ -136,7 +137,7 @@ def measured(
 
     Returns
     -------
-    Measured
+    MeasuredResult
         The result; its error estimate holds for the less accurate of the two runs.
     """
     begun = time.perf_counter()

@@ -18,7 +18,7 @@ _pool = ThreadPoolExecutor(max_workers=THREADS, thread_name_prefix="kernel")
 
 
 def run_in_threads(work: Callable[[int], None], count: int, threads: int = THREADS, at_once: int = 1) -> None:
-    """Run work(0), …, work(count − 1) on the thread pool, and raise the first error.
+    """Run work(0), …, work(count − 1) on the thread pool; raise the error of the first item that fails.
 
     Before each item the request may be cancelled, see `patience`.
 
@@ -29,9 +29,9 @@ def run_in_threads(work: Callable[[int], None], count: int, threads: int = THREA
     count : int
         Number of items.
     threads : int, default THREADS
-        Number of threads; 1 for no pool, in order.
+        1 to run the items in order on the calling thread; any other number uses the whole pool of `THREADS` threads.
     at_once : int, default 1
-        Number of items that a thread takes at a time.
+        Number of items that a thread takes at a time; so many items or fewer run on the calling thread.
     """
 
     def some(first: int, after: int) -> None:

@@ -13,14 +13,14 @@ _asked: ContextVar[tuple[Callable[[], None], Callable[[float], None]] | None] = 
 
 @contextmanager
 def work_limit(check: Callable[[], None], spend: Callable[[float], None]) -> Iterator[None]:
-    """Run the body of the `with` statement under a limit.
+    """Run the body of the `with` statement under a limit, which replaces any outer one.
 
     Parameters
     ----------
     check : callable
         Function that computations call between their parts; it may raise.
     spend : callable
-        Function that receives the CPU seconds of other threads.
+        Function that receives the CPU seconds of helper threads, which call it themselves.
 
     Yields
     ------
@@ -35,14 +35,17 @@ def work_limit(check: Callable[[], None], spend: Callable[[float], None]) -> Ite
 
 
 def check_limit() -> None:
-    """Raise the error of the request's check, if the request has been cancelled or has used up its budget."""
+    """Call the check of `work_limit`, which raises if the request is cancelled or has used up its budget.
+
+    Does nothing without a limit.
+    """
     limit = _asked.get()
     if limit is not None:
         limit[0]()
 
 
 def charge(seconds: float) -> None:
-    """Charge CPU seconds of a helper thread to the request.
+    """Charge CPU seconds of a helper thread to the request; do nothing without a limit.
 
     Parameters
     ----------

@@ -37,7 +37,8 @@ class Recursion:
     constants : number of values that are constant during a step; they follow the parameters in p.
     observables : number of series that the field returns after its rates.
     monitors : kinds of the series after these, on which the step depends, see `tracing.trace`.
-    functions : number of functions of the state, which follow the variables in y and the rates of these.
+    functions : number of functions of the state; they follow the variables in y, and their rates follow the rates of
+        the variables.
     source : Python source of `rates(y, q, p, one)` and, if needed, of `stage0(y, q, p, one)`, … and `constants(y, p)`;
         each returns a tuple.  one : the series of the number 1, which is 1 at order 0 and 0 at all others.
         `started(y, p)` returns the functions at a state, and `extended(y, p)` the rates of variables and functions in

@@ -36,7 +36,7 @@ _Item = TypeVar("_Item", bound=np.generic)
 
 
 def as_read_only(array: NDArray[_Item]) -> NDArray[_Item]:
-    """Return the same array, made read-only, because results are cached and shared between sessions.
+    """Return the same array, made read-only, because results are cached and shared.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ def facts_of(result: Any) -> dict[str, Any]:
     Returns
     -------
     dict
-        Level, status, error estimate, drifts if there are any, and steps, by name.
+        Level, status, error estimate, time error and drifts if there are any, and steps, by name.
     """
     return {
         "level": result.level,
@@ -108,7 +108,7 @@ def facts_of(result: Any) -> dict[str, Any]:
 
 
 def angle_convention(counts: bool) -> str:
-    """Return the remark of a table on an angle.
+    """Return the remark on an angle in the facts of a result.
 
     Parameters
     ----------
@@ -124,7 +124,7 @@ def angle_convention(counts: bool) -> str:
 
 
 def angle_facts(angles: Iterable[str], counts: bool = True) -> dict[str, str]:
-    """Return the facts of a table about its angles.
+    """Return the facts of a result about its angles.
 
     Parameters
     ----------
@@ -136,14 +136,14 @@ def angle_facts(angles: Iterable[str], counts: bool = True) -> dict[str, str]:
     Returns
     -------
     dict of str to str
-        A remark for each angle.
+        The remark on each angle, by "angle" and its name.
     """
     return {f"angle {name}": angle_convention(counts) for name in angles}
 
 
 @dataclass(frozen=True)
 class Sampled(Result):
-    """States of a motion at several times, the base of orbits, ensembles and section crossings.
+    """States of a motion at several times; base class of orbits, ensembles and section crossings.
 
     Attributes
     ----------
@@ -152,7 +152,7 @@ class Sampled(Result):
     level : str
         Name of the accuracy level.
     times : ndarray, shape (n,)
-        Times.
+        Times, in units T.
     states : ndarray, shape (n, d)
         States, in the order of `variables`.
     status : Status
@@ -214,7 +214,7 @@ class Orbit(Sampled):
     level : str
         Name of the accuracy level.
     times : ndarray, shape (n,)
-        Times.
+        Times, in units T.
     states : ndarray, shape (n, d)
         States, in the order of `variables`.
     status : Status
@@ -247,7 +247,7 @@ class Ensemble(Sampled):
     level : str
         Name of the accuracy level.
     times : ndarray, shape (m,)
-        Times.
+        Times, in units T.
     states : ndarray, shape (n, m, d)
         States of the n orbits, in the order of `variables`.
     status : Status
@@ -294,7 +294,7 @@ class SectionCrossings(Sampled):
     level : str
         Name of the accuracy level.
     times : ndarray, shape (n,)
-        Times of the crossings.
+        Times of the crossings, in units T.
     states : ndarray, shape (n, d)
         States at the crossings, in the order of `variables`.
     status : Status

@@ -50,8 +50,8 @@ PATIENCE, STALLED = 4096, 1e-10
 def expansion(recursion: Recursion) -> Callable[..., Any]:
     """Return the compiled recursion of one orbit.
 
-    expand(c, left, right, inverses, parameters) computes the Taylor coefficients c[1 … order, variable] from the state
-    in c[0].  left, right : copies of the coefficients of the factors of the products, one column per product;
+    expand(c, left, right, inverses, parameters, seen) computes the Taylor coefficients c[1 … order, variable] from the
+    state in c[0].  left, right : copies of the coefficients of the factors of the products, one column per product;
     inverses : 1/(k+1) for k = 0 … order−1.  seen[0 … order−1, i] receives the series that the field returns after its
     rates, then those that are watched.
     """

@@ -115,7 +115,7 @@ def trace(field: Field, variables: int, parameters: int, observables: int = 0) -
     Raises
     ------
     NotTraceable
-        If the field uses anything but arithmetic and `FUNCTIONS`.
+        If the field uses anything but arithmetic and `FUNCTIONS`, or returns another number of expressions.
     """
     tape, results = _record(field, variables, parameters, observables)
     functions = tape.functions(results, variables)

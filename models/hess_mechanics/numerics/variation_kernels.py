@@ -85,7 +85,7 @@ def _lanes(columns: int) -> int:
 
 
 def products(of: Variation, columns: int) -> int:
-    """Return the number of products in the source of the kernel, which its compile time depends on."""
+    """Return the number of products in the source of the kernel, on which its compile time depends."""
     entries = len(of.state_entries) + len(of.constant_entries)
     lanes = _lanes(columns)
     return len(of.recursion.pairs) + len(of.state_entries) * (1 if lanes * entries > _WRITTEN_OUT else lanes)
@@ -212,9 +212,9 @@ def variation_integrator(of: Variation, columns: int, ahead: bool = False) -> Ca
     ahead : True if f(y), the column along the motion, precedes the columns of V; it is known and not integrated.
 
     vary(state, frame, parameters, times, order, tolerance, max_steps, limit, states, frames, growth, divergence)
-    integrates from t = 0.  At the times (n,), monotonic and all ≥ 0 or all ≤ 0, it writes y into `states` (n, d), V
-    into `frames` (n, d, c), and ∫ tr J dt into `divergence` (n,).  It returns the number of steps, or
-    `STEP_LIMIT_REACHED` or `STOPPED`.
+    integrates from the state (d,) and V = `frame` (d, c) at t = 0.  At the times (n,), monotonic and all ≥ 0 or all
+    ≤ 0, it writes y into `states` (n, d), V into `frames` (n, d, c), and ∫ tr J dt into `divergence` (n,).  It returns
+    the number of steps, or `STEP_LIMIT_REACHED` or `STOPPED`.
 
     limit : if finite, V is orthonormalised (also against f(y) with `ahead`) after a step at which its condition number,
     or the length of its columns, may have passed the limit.  `growth` (n, c) receives the logarithms of the lengths

@@ -24,7 +24,7 @@ class Attitude:
     axes : ndarray, shape (n, 3, 3)
         The vertical γ, e and γ × e in the axes of the body, in rows, orthonormal to round-off.
     defect : float
-        Estimate of their error, ≥ 0, see `orthonormal` and `attitude_along`.
+        Estimate of the error of the axes, ≥ 0, see `orthonormal` and `attitude_along`.
     """
 
     times: Array
@@ -59,23 +59,24 @@ class Attitude:
 
 
 TURN = 0.1
-"""Largest rotation, in radians, from one sample of `attitude_along` to the next, unless the orbit rotates faster."""
+"""Largest rotation, in radians, from one sample of `attitude_along` to the next, unless `MAX_TURNS` is reached."""
 MAX_TURNS = 4000
-"""Largest number of samples, besides those of the orbit."""
+"""Largest number of intervals between the samples of `attitude_along`."""
 
 
 def attitude_along(times: Array, omega: Array, gamma: Array) -> Attitude:
     """Return the attitude of a body along an orbit, from samples of the orbit.
 
     The rotation between two samples is that of the Magnus expansion of fourth order, with the derivative of ω from its
-    neighbours; only the turn about γ is used, because γ is known.  The result has a sample for every `TURN` of
-    rotation, also between those of the orbit, so that the chord of two neighbours approximates the rotation.  Its
-    defect is the largest angle, in radians, between a sample of γ and the quadrature from the sample before it.
+    neighbours; only the turn about γ is used, because γ is known.  The samples of the result are equal angles of
+    rotation apart, of `TURN` at most, so that the chord of two neighbours approximates the rotation; long orbits have
+    `MAX_TURNS` steps of a larger angle.  The defect is the largest difference in a component between a sample of γ and
+    the rotated sample before it.
 
     Parameters
     ----------
     times : ndarray, shape (n,)
-        Times in order.
+        Times in order, n ≥ 2.
     omega : ndarray, shape (n, 3)
         Angular velocities in the axes of the body, in rad/T.
     gamma : ndarray, shape (n, 3)
@@ -84,7 +85,7 @@ def attitude_along(times: Array, omega: Array, gamma: Array) -> Attitude:
     Returns
     -------
     Attitude
-        The attitude at more times.
+        The attitude at other times, from the first to the last one given.
     """
     e, v, moved = (found[0] for found in _carried(times, omega[None], gamma[None]))
     g = gamma / np.linalg.norm(gamma, axis=1)[:, None]
@@ -123,16 +124,16 @@ def second_directions(times: Array, omega: Array, gamma: Array) -> Array:
 def contact_arc(axes: Array, at: Sequence[float] | Array, e: Sequence[float] | Array) -> Array:
     """Return the arc that the contact point of a wheel has travelled on the unit sphere.
 
-    The contact `at` has the velocity ω × at, and its component along e is (ω, at × e).
+    The contact `at` has the velocity ω × at, whose component along e is (ω, at × e).
 
     Parameters
     ----------
     axes : ndarray, shape (n, 3, 3)
-        Axes of an `Attitude`; between two samples ω is constant.
+        Axes of an `Attitude`; ω is taken as constant between two samples.
     at : array_like, shape (3,)
-        Contact point in the axes of the body.
+        Contact point in the axes of the body, a unit vector.
     e : array_like, shape (3,)
-        Direction in which the wheel rolls.
+        Direction in which the wheel rolls, a unit vector in the axes of the body.
 
     Returns
     -------
@@ -171,14 +172,14 @@ def orthonormal(g: Array, e: Array) -> tuple[Array, float]:
     g : ndarray, shape (n, 3)
         Verticals γ.
     e : ndarray, shape (n, 3)
-        Second direction.
+        Second directions, not parallel to γ.
 
     Returns
     -------
     axes : ndarray, shape (n, 3, 3)
         The axes γ, e and γ × e, in rows.
     defect : float
-        Largest of ||γ| − 1|, ||e| − 1| and |(e, γ)| before.
+        Largest of ||γ| − 1|, ||e| − 1| and |(e, γ)| of the arguments.
     """
     long_g, long_e = np.linalg.norm(g, axis=1), np.linalg.norm(e, axis=1)
     defect = max(np.max(np.abs(x)) for x in (long_g - 1.0, long_e - 1.0, np.sum(g * e, axis=1)))

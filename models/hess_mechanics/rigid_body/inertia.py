@@ -1,7 +1,7 @@
 """Checks of inertia tensors, in axes with I12 = 0 and the constraint along e = e3 (`Biz03`).
 
 I33 does not enter the Suslov problem.  A tensor belongs to a rigid body if, for some I33, its second moments ½ tr I − I
-are not negative (for principal moments: the triangle inequality).
+are nonnegative (for principal moments: the triangle inequality).
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ def require_positive_definite(I11: float, I22: float) -> None:
 
 
 def require_comparable(I11: float, I22: float) -> None:
-    """Raise an error unless I11 and I22 are positive and their ratio is at most `MAX_RATIO`.
+    """Raise an error unless I11 and I22 are positive, and the larger is at most `MAX_RATIO` times the smaller.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ def require_comparable(I11: float, I22: float) -> None:
     """
     require_positive_definite(I11, I22)
     if not 1.0 / MAX_RATIO <= I11 / I22 <= MAX_RATIO:
-        raise InvalidParameter(f"The moments I11 and I22 are too different: choose a ratio below {MAX_RATIO:g}.")
+        raise InvalidParameter(f"The moments I11 and I22 are too different: choose a ratio of at most {MAX_RATIO:g}.")
 
 
 _SEARCH = {"xtol": 1e-300, "rtol": 1e-15, "maxiter": 1000}
@@ -109,12 +109,12 @@ class BodyCheck:
 
 
 def body_check(I33: tuple[float, float] | None) -> BodyCheck:
-    """Return the result of `check_body` in words.
+    """Return the result of the check for a known interval of I33, with its sentence.
 
     Parameters
     ----------
-    I33 : (float, float), optional
-        Interval of the admissible I33; None if there is none.
+    I33 : (float, float) or None
+        Interval of the admissible I33, in the unit of the moments; None if there is none.
 
     Returns
     -------
@@ -132,7 +132,7 @@ def body_check(I33: tuple[float, float] | None) -> BodyCheck:
 
 
 def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
-    """Return the interval of I33 for which an inertia tensor belongs to a rigid body.
+    """Check whether an inertia tensor belongs to a rigid body for some I33, and return the interval of these I33.
 
     Parameters
     ----------
@@ -148,7 +148,7 @@ def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
     Returns
     -------
     BodyCheck
-        The interval and the result in words.
+        The interval, None if there is none, and the result in words.
 
     Raises
     ------
@@ -159,7 +159,7 @@ def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
 
     Notes
     -----
-    The condition is ½ tr I − I ≥ 0.  With s = (I11+I22)/2, d = (I11−I22)/2, y = I33/2 ≥ |d| it is
+    ½ tr I − I must be positive semidefinite.  With s = (I11+I22)/2, d = (I11−I22)/2, y = I33/2 ≥ |d| this is
     g(y) = s − y − I23²/(y+d) − I13²/(y−d) ≥ 0, and g is concave, so the solutions form an interval.
 
     References
@@ -198,24 +198,24 @@ def check_body(I11: float, I22: float, I13: float, I23: float) -> BodyCheck:
 
 
 def paired_weights(moments: Array, arms: Array, centre: Array | None = None) -> Array | None:
-    """Return masses of point weights on the principal axes that have given moments of inertia.
+    """Return the masses of six point weights on the principal axes that have given moments of inertia.
 
-    The weights of a pair differ so that their centre of mass lies in a given direction, which does not change the
-    moments.
+    The two weights of an axis may differ: this moves the centre of mass in a given direction and keeps the moments.  If
+    the weights of an axis with a component of that direction are 0, the centre of mass stays at the fixed point.
 
     Parameters
     ----------
     moments : ndarray, shape (3,)
         Principal moments of inertia.
     arms : ndarray, shape (3,)
-        Distances of the weights from the fixed point; each axis has weights at ±arm.
+        Distances of the weights from the fixed point, positive; each axis has weights at ±arm.
     centre : ndarray, shape (3,), optional
-        Direction of the centre of mass in the principal axes.  By default it is the fixed point.
+        Direction of the centre of mass in the principal axes.  By default the centre of mass is the fixed point.
 
     Returns
     -------
     ndarray, shape (3, 2), or None
-        Masses at +arm and −arm; None if the moments are not those of a rigid body.
+        Masses at +arm and −arm, ≥ 0; None if the moments are not those of a rigid body.
     """
     second = 0.5 * np.sum(moments) - moments
     if np.min(second) < -1e-9 * np.max(moments):

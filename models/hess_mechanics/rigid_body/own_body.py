@@ -1,6 +1,6 @@
 """A user-defined rigid body: a fixed point, a linear constraint, a gyrostatic momentum, a polynomial potential.
 
-State y = (ω1, ω2, ω3, γ1, γ2, γ3), and with a drive (cos Ωt, sin Ωt, W) after these.  With M = Iω + K,
+State y = (ω1, ω2, ω3, γ1, γ2, γ3), followed by (cos Ωt, sin Ωt, W) if there is a drive.  With M = Iω + K,
 
     I ω̇ = M × ω + γ × ∂U/∂γ − K̇ + λ a,   γ̇ = γ × ω,   (a, ω) = 0,
 
@@ -43,14 +43,15 @@ class Polynomial:
     Parameters
     ----------
     exponents : tuple of (int, int, int)
-        Exponents of the three numbers in each term, without repetition.
+        Exponents of the three numbers in each term, ≥ 0, with a sum of at most 6; at most 20 terms.
     coefficients : tuple of float
-        Coefficient of each term.
+        Coefficient of each term, any finite number.
 
     Raises
     ------
     InvalidParameter
-        If there are more than 20 terms, a degree exceeds 6, or a coefficient is not finite.
+        If an argument is not a sequence, there are more than 20 terms or not one coefficient for each, an exponent is
+        not an integer from 0 to 6, the degree of a term exceeds 6, or a coefficient is not finite.
 
     Examples
     --------
@@ -85,12 +86,12 @@ class Polynomial:
         Parameters
         ----------
         g1, g2, g3 : float or ndarray
-            The three numbers.
+            The three numbers; arrays broadcast.
 
         Returns
         -------
         float or ndarray
-            The value.
+            The value; 0 if there are no terms.
         """
         return _value(self.exponents, self.coefficients, (g1, g2, g3))
 
@@ -145,7 +146,7 @@ Exponents = tuple[tuple[int, int, int], ...]
 
 @cache
 def _system(exponents: Exponents, is_constrained: bool, drive: Exponents) -> System:
-    """Return the equations of all bodies whose potential and drive have these terms; no terms for no drive."""
+    """Return the equations of all bodies whose potential and drive have these terms; an empty `drive` means none."""
     is_driven = bool(drive)
     names = [*("I11", "I22", "I33", "I12", "I13", "I23"), *("k1", "k2", "k3")]
     names += ["a1", "a2", "a3"] if is_constrained else []
@@ -153,7 +154,7 @@ def _system(exponents: Exponents, is_constrained: bool, drive: Exponents) -> Sys
     last = len(names)
 
     def split(p: Sequence[Any]) -> tuple[Sequence[Any], ...]:
-        """Return the rows of I, k, a, d, Ω and the coefficients of the drive, and those of U."""
+        """Return the rows of I, then k, a (0 if free), (d, Ω, coefficients of p) and the coefficients of U."""
         first = 12 if is_constrained else 9
         return _rows(p[:6]), p[6:9], p[9:12] if is_constrained else _NOTHING, p[first:last], p[last:]
 
@@ -211,21 +212,21 @@ def _system(exponents: Exponents, is_constrained: bool, drive: Exponents) -> Sys
 
 @dataclass(frozen=True)
 class OwnBody:
-    """A body with a fixed point.
+    """A body with a fixed point in a polynomial potential, optionally with a linear constraint and with rotors.
 
     Parameters
     ----------
     inertia : tuple of float, shape (6,)
         I11, I22, I33, I12, I13, I23, positive definite; their unit is the unit I.
     potential : Polynomial, optional
-        The potential U(γ), in units I/T².
+        The potential U(γ), in units I/T².  By default 0.
     constraint : (float, float, float), optional
         The vector a of the constraint (a, ω) = 0, nonzero; None for a free body.
     momentum : (float, float, float), optional
-        Constant part k of the gyrostatic momentum, in units I/T.
+        Constant part k of the gyrostatic momentum, in units I/T.  By default 0.
     drive : (float, float, float), optional
-        Amplitude d of its periodic part d p(cos Ωt, sin Ωt), in units I/T.
-    frequency : float, optional
+        Amplitude d of its periodic part d p(cos Ωt, sin Ωt), in units I/T.  By default 0, which means no drive.
+    frequency : float, default 1.0
         Frequency Ω of the drive, any finite number, in rad/T.
     shape : Polynomial, optional
         The polynomial p.  By default p = cos Ωt.
@@ -233,7 +234,7 @@ class OwnBody:
     Raises
     ------
     InvalidParameter
-        If a number is not finite, or a = 0.
+        If a number is not finite, an argument has the wrong number of components, or a = 0.
     NotPositiveDefinite
         If the inertia tensor is not positive definite.
 
@@ -262,14 +263,19 @@ class OwnBody:
             as_parts(name, getattr(self, name), count)
         constraint = () if self.constraint is None else as_parts("constraint", self.constraint, 3)
         numbers = (*self.inertia, *constraint, *self.momentum, *self.drive, self.frequency)
-        require_finite(**{f"number {i + 1}": value for i, value in enumerate(numbers)})
+        require_finite(
+            **{
+                f"number {i + 1} of inertia, constraint, momentum, drive, frequency": value
+                for i, value in enumerate(numbers)
+            }
+        )
         if not self._moments[0] > 0.0:
             raise NotPositiveDefinite(
                 "The inertia tensor is not positive definite: choose larger moments I11, I22, I33, or smaller products "
                 "I12, I13, I23."
             )
         if self.constraint is not None and not any(self.constraint):
-            raise InvalidParameter("The vector a of the constraint is 0: choose another one, or no constraint.")
+            raise InvalidParameter("The vector a of the constraint is 0: choose a nonzero one, or no constraint.")
 
     @property
     def _moments(self) -> Any:
@@ -278,7 +284,7 @@ class OwnBody:
 
     @property
     def check(self) -> BodyCheck:
-        """The triangle inequality of the principal moments; a flat body just satisfies it."""
+        """The check of the triangle inequality for the principal moments; a flat body satisfies it with equality."""
         small, middle, large = self._moments
         is_body = bool(small + middle >= large * (1.0 - 1e-12))
         inequality = f"{plain(small, 4)} + {plain(middle, 4)} {'≥' if is_body else '<'} {plain(large, 4)}"
@@ -287,12 +293,12 @@ class OwnBody:
 
     @property
     def is_driven(self) -> bool:
-        """True if the gyrostatic momentum depends on time."""
+        """True if the equations contain the drive: d is nonzero and p has terms."""
         return any(self.drive) and bool(self.shape.exponents)
 
     @property
     def surface(self) -> Plane:
-        """The section of its motions, crossed upwards: γ3 = 0, or sin Ωt = 0, once in a period of a drive."""
+        """The plane of the section: γ3 = 0, upward crossings; with a drive and Ω ≠ 0, Ωt = 2πn, once per period."""
         is_periodic = self.is_driven and self.frequency != 0.0
         variable = "sinΩt" if is_periodic else "γ3"
         normal = tuple(float(name == variable) for name in self.system.variables)
@@ -305,7 +311,7 @@ class OwnBody:
         Raises
         ------
         WorkLimit
-            If too many forms of equations have been compiled in this process.
+            If 300 forms of equations, that is, sets of terms, have been compiled in this process.
         """
         if _system.cache_info().currsize >= _FORMS:
             raise WorkLimit(f"{_FORMS} forms of equations have been compiled here: restart the program.")
@@ -314,34 +320,34 @@ class OwnBody:
 
     @property
     def parameters(self) -> tuple[float, ...]:
-        """Values of the parameters of the equations."""
+        """The parameters: inertia, k, a if constrained, d, Ω and coefficients of p if driven, coefficients of U."""
         drive = (*self.drive, self.frequency, *self.shape.coefficients) if self.is_driven else ()
         return (*self.inertia, *self.momentum, *(self.constraint or ()), *drive, *self.potential.coefficients)
 
     def start(self, omega: Sequence[float], gamma: Sequence[float]) -> tuple[float, ...]:
-        """Return the state for an angular velocity and a vertical.
+        """Return the initial state for an angular velocity and a vertical.
 
         Parameters
         ----------
         omega : sequence of float, shape (3,)
-            Angular velocity; its part along the constraint is removed.
+            Angular velocity, in rad/T; its component along a is removed if there is a constraint.
         gamma : sequence of float, shape (3,)
             Direction of the vertical; it is normalised.
 
         Returns
         -------
-        tuple of float
-            The state.
+        tuple of float, shape (6,) or (9,)
+            State (ω, γ), with a drive (ω, γ, 1, 0, 0).
 
         Raises
         ------
         InvalidParameter
-            If the vertical is 0.
+            If the vertical is 0 or contains NaN.
         """
         w, g = np.array(omega, float), np.array(gamma, float)
         length = float(np.linalg.norm(g))
         if not length > 0.0:
-            raise InvalidParameter("The vertical γ is 0: give a direction.")
+            raise InvalidParameter("The vertical γ is 0 or not a number: give a nonzero vector.")
         if self.constraint is not None:
             a = np.array(self.constraint) / np.linalg.norm(self.constraint)
             w = w - (a @ w) * a

@@ -62,7 +62,7 @@ class Reversal:
         kernel : callable
             The kernel.
         normal : ndarray, shape (1,)
-            Not used by this surface.
+            0, not used by this surface.
         offset : float
             Value of (ω, γ) on the surface, 0.
 
@@ -100,7 +100,7 @@ def rate(states: Array) -> Array:
 
 
 def reversals(body: Body, start: Sequence[float], duration: float, accuracy: Accuracy) -> SectionCrossings:
-    """Return all reversals of a motion, the times at which (ω, γ) = 0.
+    """Return the reversals of a motion, the times at which (ω, γ) changes sign, up to the first 5000.
 
     Parameters
     ----------
@@ -109,14 +109,14 @@ def reversals(body: Body, start: Sequence[float], duration: float, accuracy: Acc
     start : sequence of float, shape (5,)
         Initial state.
     duration : float
-        Time; negative: backward.
+        Time, any finite number; negative: backward.
     accuracy : str or Level
         Accuracy level.
 
     Returns
     -------
     SectionCrossings
-        Times and states, at most 5000.
+        Times and states.
 
     Raises
     ------

@@ -82,12 +82,12 @@ def I11_of(k: int, I22: float, I23: float) -> float:
 
 
 def I11_at(k: float, I22: float, I13: float, I23: float) -> float:
-    """Return I11 = I22 + k|k| (I13² + I23²)/I22: `I11_of` for any real k and both cases of `eq834`.
+    """Return I11 = I22 + k|k| (I13² + I23²)/I22, which for I13 = 0 extends `I11_of` to any real k.
 
     Parameters
     ----------
     k : float
-        Any real number; I11 < I22 for k < 0.
+        Any real number; I11 < I22 for k < 0.  With I13 ≠ 0 an odd k does not mean that F2 exists.
     I22 : float
         Moment of inertia about the second axis, I22 > 0.
     I13, I23 : float
@@ -178,11 +178,11 @@ class AdditionalIntegral:
     swaps_axes : bool
         True for case 2 of `eq834` (I23 = 0).
     a : ndarray of float, shape ((k + 1)/2,)
-        Coefficients of V1, in case 2 those of the permuted body.
+        Coefficients of V1, see the module; in case 2 those of the permuted body.
     b : ndarray of float, shape ((k + 1)/2,)
-        Coefficients of V2.
+        Coefficients of V2, likewise.
     c : ndarray of float, shape ((k + 1)/2,)
-        Coefficients of V3.
+        Coefficients of V3, likewise.
     inertia : float
         Moment of inertia about ξ: I11, in case 2 I22; positive, in units I.
     """
@@ -195,7 +195,7 @@ class AdditionalIntegral:
     inertia: float
 
     def vector(self, omega: Array) -> Array:
-        """Return V(ω).
+        """Return the vector V(ω) of F2 = (γ, V(ω)).
 
         Parameters
         ----------
@@ -270,7 +270,7 @@ class AdditionalIntegral:
         Raises
         ------
         InvalidParameter
-            If h is not finite or not positive.
+            If h is not a finite positive number.
 
         References
         ----------
@@ -301,7 +301,7 @@ def order(body: SuslovBody) -> int | None:
     Returns
     -------
     int or None
-        The degree of F2; None if the body has a field or no such k exists.
+        The degree of F2; None if the body has a field, no such k exists, or round-off leaves k open.
     """
     I11, I22, I13, I23, *b = body.parameters
     if any(b) or (I13 == 0.0) == (I23 == 0.0):
@@ -335,7 +335,7 @@ def additional_integral(k: int, body: SuslovBody) -> AdditionalIntegral:
     Raises
     ------
     InvalidParameter
-        If k is even or too large, both or none of I13 and I23 are 0, or a coefficient overflows.
+        If k is not odd from 1 to 15, I13 and I23 are both 0 or both nonzero, or a coefficient overflows.
 
     References
     ----------
@@ -377,7 +377,7 @@ def integral_of(body: SuslovBody) -> AdditionalIntegral | None:
     Returns
     -------
     AdditionalIntegral or None
-        F2, or None if `eq834` does not hold.
+        F2; None if the body has a field or `eq834` does not hold.
     """
     k = order(body)
     return None if k is None else additional_integral(k, body)

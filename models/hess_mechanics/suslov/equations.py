@@ -29,7 +29,7 @@ class SuslovBody:
     I11 : float
         Moment of inertia about the first axis, I11 > 0; its unit is the unit I of all moments and products.
     I22 : float
-        Moment of inertia about the second axis, I22 > 0, in units I; I11/I22 from 1e-20 to 1e20.
+        Moment of inertia about the second axis, I22 > 0, in units I; motions need I11/I22 from 1e-20 to 1e20.
     I13 : float
         Product of inertia, any finite number, in units I.
     I23 : float
@@ -140,7 +140,7 @@ def frequency(y: Array, p: Array) -> Array | float:
     y : ndarray, shape (5,) or (5, n)
         One or several states.
     p : ndarray, shape (7,)
-        Parameters.
+        Parameters (I11, I22, I13, I23, b1, b2, b3).
 
     Returns
     -------
@@ -152,7 +152,7 @@ def frequency(y: Array, p: Array) -> Array | float:
     NotPositiveDefinite
         If I11 ≤ 0 or I22 ≤ 0.
     InvalidParameter
-        If the ratio of I11 and I22 is beyond 1e20.
+        If the larger of I11 and I22 exceeds 1e20 times the smaller.
     """
     I11, I22 = p[0], p[1]
     require_comparable(I11, I22)

@@ -104,7 +104,7 @@ class PassageConstants:
 
     @property
     def end(self) -> float:
-        """The |u| beyond which A and B change by less than 1e-17."""
+        """The |u| beyond which A and B change by at most 1.2e-17."""
         return 39.0 + math.log(max(1.0, self.kappa))
 
     def angle(self, u: Array | float, arc: int) -> Array:
@@ -146,7 +146,7 @@ def shape(body: SuslovBody) -> PassageConstants:
     Returns
     -------
     PassageConstants
-        K, κ, c and the directions ξ and η.
+        The constants, with the directions ξ and η.
 
     Raises
     ------
@@ -395,8 +395,8 @@ def _sech(u: Array) -> Array:
 def passage(body: SuslovBody, omega: Sequence[float]) -> Passage:
     """Return the motion of ω from its value at t = 0, however close to the line of equilibria.
 
-    sinh u0 = tan β, where (cos β, sin β) is ω(0) on the ellipse E = h, with the angle β from the middle of the arc σ =
-    +1.
+    sinh u0 = sin β/|cos β|, where β is the angle, in the metric of the energy, from the middle of the arc σ = +1 to
+    ω(0), positive towards the stable point.
 
     Parameters
     ----------
@@ -413,7 +413,7 @@ def passage(body: SuslovBody, omega: Sequence[float]) -> Passage:
     Raises
     ------
     InvalidParameter
-        If the body has a field, I13 = I23 = 0, or ω is 0 or on the line of equilibria.
+        If the body has a field, I13 = I23 = 0, ω is 0 or on the line of equilibria, or double precision is exceeded.
     WorkLimit
         If γ rotates too often during the passage, see `shape`.
     """
@@ -451,9 +451,10 @@ def _log(x: Fraction) -> float:
 
 
 def transfer(of: PassageConstants, arc: int, u: Array, accuracy: Accuracy) -> tuple[Complex, Complex, float, int]:
-    """Return the matrix M(u) M(u0)^−1 of SU(2), with u0 = u[0], its estimated error and the steps.
+    """Return the matrices M(u) M(u[0])^−1 of SU(2), their estimated error and the number of steps.
 
-    The error of the rotation between any two of the u is estimated as in `orbit.solve`.
+    M is the solution of the module with M(0) = 1, constant beyond ±`of.end`.  The error is that of the rotation between
+    any two of the u, estimated as in `orbit.solve`.
 
     Parameters
     ----------
@@ -473,7 +474,7 @@ def transfer(of: PassageConstants, arc: int, u: Array, accuracy: Accuracy) -> tu
     B : ndarray of complex, shape (m,)
         Second element.
     error : float
-        Estimated error of the rotations.
+        Estimated error of the rotations, ≥ 0.
     steps : int
         Taylor steps of all runs.
 
@@ -497,7 +498,7 @@ def transfer(of: PassageConstants, arc: int, u: Array, accuracy: Accuracy) -> tu
             longest = at.longest_step(of.end)
             steps, _ = integrate(start, p, inside[outwards], at.order, at.tolerance, longest, _MAX_STEPS, states)
             if steps < 0:
-                raise WorkLimit("This passage needs too many steps: choose larger I13, I23, or a cheaper level.")
+                raise WorkLimit("This passage needs too many steps: choose larger I13, I23, or a cheaper accuracy.")
             out[outwards] = states
             total += steps
         return (out[:, 4] + 1j * out[:, 5], out[:, 6] + 1j * out[:, 7]), total
@@ -520,7 +521,7 @@ def rotation(motion: Passage, elapsed: Array, accuracy: Accuracy) -> tuple[Array
     motion : Passage
         The motion of ω.
     elapsed : ndarray, shape (m,)
-        Rescaled times ω0 t.
+        Rescaled times ω0 t from the start of the motion, in any order.
     accuracy : str or Level
         Accuracy level.
 
@@ -531,7 +532,7 @@ def rotation(motion: Passage, elapsed: Array, accuracy: Accuracy) -> tuple[Array
     limits : ndarray, shape (2, 3)
         Rows with Γ^∓ = row · γ(0) for t → ∓∞.
     error : float
-        Estimated error of γ.
+        Estimated error of γ, 0 to 2.
     steps : int
         Taylor steps of all runs.
 
@@ -649,9 +650,9 @@ def free_motion(
     Parameters
     ----------
     body : SuslovBody
-        Body with b = 0 and I13 or I23 not 0.
+        Body with b = 0, and I13 or I23 nonzero.
     omega : sequence of two floats
-        Angular velocity (ω1, ω2) at t = 0, not on the line I13ω1 + I23ω2 = 0.
+        Angular velocity (ω1, ω2) at t = 0, in rad/T, not on the line I13ω1 + I23ω2 = 0.
     gamma : sequence of three floats
         Vertical γ at t = 0; it is normalised, with a note if its length was not 1.
     times : array_like of float, shape (m,)
@@ -667,9 +668,10 @@ def free_motion(
     Raises
     ------
     InvalidParameter
-        If the body has a field, I13 = I23 = 0, ω is 0 or on the line of equilibria, γ is 0, or times are out of order.
+        If the body has a field, I13 = I23 = 0, ω is 0 or on the line of equilibria, γ is 0, times are out of order, or
+        double precision is exceeded.
     WorkLimit
-        If γ rotates too often during the passage.
+        If γ rotates too often during the passage, see `shape`, or there are more than 200 000 times.
 
     References
     ----------
@@ -731,10 +733,10 @@ _UNIFORM = 20.0
 def sample_times(
     body: SuslovBody, omega: Sequence[float], duration: float, weights: tuple[float, float], sagitta: float, most: int
 ) -> Array:
-    """Return times of a motion whose polygon looks like the curves of ω and γ.
+    """Return times of a motion at which the polygons of ω and γ look like the curves.
 
-    As `sampling.sample_times`, with the accelerations in closed form.  If `most` times are too few, the uniform
-    rotation near the line of equilibria is sampled less densely.
+    This is `sampling.sample_times` with the accelerations in closed form.  If `most` times are too few, the uniform
+    rotation near the line of equilibria is sampled less densely than the passage.
 
     Parameters
     ----------
@@ -747,30 +749,33 @@ def sample_times(
     weights : (float, float)
         Pixels per unit of ω and of γ.
     sagitta : float
-        Largest distance between curve and chord, in pixels.
+        Largest distance between curve and chord, positive, in pixels.
     most : int
-        Largest number of times.
+        Largest number of times, at least 2.
 
     Returns
     -------
     ndarray, shape (n,)
-        Times from 0 to `duration`.
+        Times from 0 to `duration`, both included.
 
     Raises
     ------
     InvalidParameter
-        If the duration is 0 or not finite, or as `passage`.
+        If the duration is 0 or not finite, or too short or long for double precision, or as `passage`.
     WorkLimit
         If γ rotates too often during the passage, see `shape`.
     """
     motion = passage(body, omega)
     of, length = motion.shape, motion.rate * duration
     if not (math.isfinite(length) and length != 0.0):
-        raise InvalidParameter(f"The time span is {duration:g}: choose a finite nonzero number.")
+        raise InvalidParameter(
+            f"The time span {duration:g} is 0, not finite, or too extreme for this ω: choose one such as 100, or -100 "
+            "for backward motion."
+        )
     first_u, last_u = sorted((motion.u0, motion.u0 + length))
     knots = np.clip(np.linspace(-_UNIFORM, _UNIFORM, 801), first_u, last_u)
     u = np.unique(np.concatenate([[motion.u0, motion.u0 + length], knots]))
-    if u.size == 1:  # Stop when u changes by less than round-off.
+    if u.size == 1:  # The whole time span changes u by less than round-off.
         return np.linspace(0.0, duration, min(most, 17))
     tanh, sech = np.tanh(u), _sech(u)
     speed = np.linalg.norm(_omega(of, motion.arc, tanh, sech), axis=1)
@@ -802,7 +807,7 @@ def sampled_motion(
     accuracy: Accuracy,
     most: int = MOST_SAMPLES,
 ) -> FreeMotion:
-    """Return the motion of a body without a field at the `sample_times` of a plot.
+    """Return the motion of a body without a field, at the times of `sample_times`.
 
     Parameters
     ----------
@@ -829,7 +834,7 @@ def sampled_motion(
     Raises
     ------
     InvalidParameter
-        As `free_motion`.
+        As `free_motion` and `sample_times`.
     WorkLimit
         As `free_motion`.
     """

@@ -119,7 +119,7 @@ class PlaneBody(PlaneProblem):
 def state_at(body: PlaneBody, q: Sequence[float], p: Sequence[float]) -> tuple[float, ...]:
     """Return the state with γ3 ≥ 0 at given q and p.
 
-    A state within 1e-12 of the equator is moved onto it.  If ω is parallel to γ there to 1e-12, it is made exactly
+    A state with γ3² ≤ 1e-12 is moved onto the equator.  If its ω is parallel to γ to 1e-12, it is made exactly
     parallel, which gives a fixed point.
 
     Parameters
@@ -127,7 +127,7 @@ def state_at(body: PlaneBody, q: Sequence[float], p: Sequence[float]) -> tuple[f
     body : PlaneBody
         The body.
     q : sequence of float, shape (2,)
-        Point of the plane, inside the ellipse of `body.axes`.
+        Point of the plane, inside or on the ellipse with the semi-axes `body.axes`.
     p : sequence of float, shape (2,)
         Momenta.
 
@@ -188,17 +188,17 @@ class Arc:
     a : ndarray, shape (2,)
         Acceleration, the same everywhere.
     rate : float
-        Scale ν = max(|v0|, √|a|) of τ, ν ≥ 0.
+        Rate ν = max(|v0|, √|a|), ν ≥ 0; 1/ν is the scale of τ.
     tau : (float, float)
-        The times τ₋ ≤ 0 ≤ τ₊ at which the arc meets the equator.
-    touch : float, optional
-        The one of these that the orbit reaches in infinite time; None if there is none.
-    other : (float, float), optional
+        The times τ₋ ≤ 0 ≤ τ₊ at which the arc meets the equator; (0, 0) for a fixed point.
+    touch : float or None
+        That one of these two times at which the arc touches the equator, reached only as t → ±∞; None if neither.
+    other : (float, float) or None
         The times (τ₋, τ₊) of another orbit on the same parabola; None if there is none.
     period : float
         Period T in time t; ∞ if the orbit is asymptotic, 0 for a fixed point.
-    stable : bool, optional
-        For a fixed point, True if nearby orbits stay near; otherwise None.
+    stable : bool or None
+        For a fixed point, True if nearby orbits stay near, False if not; None if P'' = 0, and for other orbits.
     """
 
     kind: str
@@ -245,19 +245,19 @@ class Arc:
 
     @property
     def ends(self) -> tuple[float, float]:
-        """The first and the last τ of all arcs inside the domain, including that of the other orbit."""
+        """The first and the last τ of the arc and of that of the other orbit, if there is one."""
         both = self.tau + (self.other or ())
         return min(both), max(both)
 
     @property
     def length(self) -> float:
-        """The length in τ of the part inside the domain; for a fixed point the time scale 1/ν."""
+        """The length in τ from the first to the last of `ends`; for a fixed point 1/ν, or 1 if ν = 0."""
         low, high = self.ends
         return (high - low) or 1.0 / (self.rate or 1.0)
 
     @property
     def crossing_speeds(self) -> Array:
-        """The values |γ̇3| = |(u, v)| at τ₋ and τ₊ (2,), where the orbit crosses the equator."""
+        """The values |γ̇3| = |(u, v)| (2,) at τ₋ and τ₊, where the orbit meets the equator."""
         tau = np.array(self.tau)
         return np.asarray(np.abs(np.sum(self.u(tau) * (self.v0 + tau[:, None] * self.a), axis=1)))
 
@@ -280,7 +280,7 @@ class Arc:
 
 
 def rescaled_time(arc: Arc, states: Array) -> Array:
-    """Return the conformal time τ of states of an orbit, from u − u0 = τ (v + v0)/2 and v − v0 = a τ.
+    """Return the conformal time τ of states of an orbit, from u − u0 = τ (v + v0)/2 and v − v0 = a τ by least squares.
 
     Parameters
     ----------
@@ -292,7 +292,7 @@ def rescaled_time(arc: Arc, states: Array) -> Array:
     Returns
     -------
     ndarray, shape (m,)
-        Times τ.
+        Conformal times τ.
     """
     v, unit = np.column_stack([-states[:, 1], states[:, 0]]), arc.rate or 1.0
     # Scale both equations to units in which ν is 1.
@@ -358,7 +358,7 @@ def arc(body: PlaneBody, state: Sequence[float]) -> Arc:
     Raises
     ------
     InvalidParameter
-        If the state has not five finite numbers.
+        If the state does not have five finite numbers, or the motion is too fast for double precision.
 
     Examples
     --------
@@ -387,14 +387,15 @@ def periods_by_direction(body: PlaneBody, q: Sequence[float], speed: float) -> A
     body : PlaneBody
         The body.
     q : sequence of float, shape (2,)
-        Point of the plane, inside the ellipse of `body.axes`.
+        Point of the plane, inside or on the ellipse with the semi-axes `body.axes`.
     speed : float
         Size |p| of the momentum, ≥ 0.
 
     Returns
     -------
     ndarray, shape (721, 2)
-        Angle α of p from −π to π, in radians, and the period T; ∞ for asymptotic orbits and equilibria.
+        Angle α of p from −π to π, in radians, and the period T: that of small oscillations for a stable equilibrium, ∞
+        for asymptotic orbits and other equilibria.
 
     Raises
     ------
@@ -409,7 +410,7 @@ def periods_by_direction(body: PlaneBody, q: Sequence[float], speed: float) -> A
 
 
 def fixed_point_kinds(body: PlaneBody, E: float, count: int = 361) -> tuple[Array, Array]:
-    """Return points of the boundary of the domain and the stability of the fixed points there.
+    """Return points of the ellipse that bounds the plane, and the stability of the fixed points there.
 
     States on the equator with ω ∥ γ are fixed, and near them τ̈ = P''τ/2, P'' = −2(|v|² + (u, a)).
 
@@ -445,7 +446,7 @@ def _segment(body: PlaneBody, share: float, count: int) -> Array:
 
 
 def equipotentials(body: PlaneBody, levels: Sequence[float]) -> list[Array]:
-    """Return chords of the ellipse on which V has given values.
+    """Return the chords of the ellipse on which V has given values.
 
     Parameters
     ----------
@@ -463,7 +464,7 @@ def equipotentials(body: PlaneBody, levels: Sequence[float]) -> list[Array]:
 
 
 def forbidden(body: PlaneBody, E: float) -> list[Array]:
-    """Return the part of the ellipse where V exceeds the energy.
+    """Return the boundary of the part of the ellipse where V exceeds the energy.
 
     Parameters
     ----------
@@ -475,14 +476,14 @@ def forbidden(body: PlaneBody, E: float) -> list[Array]:
     Returns
     -------
     list of ndarray, shape (91, 2)
-        One closed curve of points q, or none.
+        One polygon of points q on the ellipse, which a chord closes; empty if V nowhere exceeds E.
     """
     size = math.hypot(body.b1, body.b2)
     return [_segment(body, E / size, 91)] if size > E else []
 
 
 def sampled_orbit(body: PlaneBody, start: Sequence[float], duration: float, accuracy: Accuracy) -> tuple[Orbit, Array]:
-    """Return an orbit at the sample times of a plot, and the mirror image of its past.
+    """Return an orbit at the sample times of a plot, and the mirror image of its continuation in the other direction.
 
     Parameters
     ----------
@@ -500,7 +501,7 @@ def sampled_orbit(body: PlaneBody, start: Sequence[float], duration: float, accu
     orbit : Orbit
         The orbit.
     mirror : ndarray, shape (m, 5)
-        Mirror images of the states at the opposite times.
+        Mirror images, γ3 → −γ3, of the states at the opposite times.
 
     Raises
     ------

@@ -14,7 +14,8 @@ of which there are three choices, see `POTENTIALS`:
 - Hénon–Heiles, c1 = c2, μ = 0, and quartic, c1 = c2, λ = 0: for I11 = I22 the systems of these names, not integrable.
 
 In every potential, an orbit that crosses the equator twice is periodic (`chaplygin_ball.integrable_cases`, 𝒟 = 0).
-So chaos occurs only below the energy at which motions reach the equator, the minimum of U on γ1² + γ2² = 1.
+So only orbits that stay away from the equator can be chaotic, such as all those with an energy below the minimum of U
+on γ1² + γ2² = 1.
 """
 
 from __future__ import annotations
@@ -54,7 +55,7 @@ _EITHER_WAY = Plane((0.0, 0.0, 0.0, 0.0, 1.0), sense=0)
 
 @dataclass(frozen=True)
 class PlaneProblem(Body):
-    """Body with I13 = I23 = 0 whose motion is that of a point in the plane.
+    """Base of bodies with I13 = I23 = 0, whose motion is that of a point in the plane.
 
     Parameters
     ----------
@@ -89,7 +90,7 @@ class PlaneProblem(Body):
 
     @property
     def axes(self) -> tuple[float, float]:
-        """The semi-axes √I11, √I22 of the ellipse (`Biz1360`)."""
+        """The semi-axes √I11 along q1 and √I22 along q2 of the ellipse (`Biz1360`)."""
         return math.sqrt(self.I11), math.sqrt(self.I22)
 
     def energy(self, state: Sequence[float]) -> float:
@@ -151,14 +152,14 @@ def closure_error(body: Body, start: Sequence[float], period: float, accuracy: A
     start : sequence of float, shape (d,)
         Initial state.
     period : float
-        Period of the orbit.
+        Period of the orbit, nonzero; negative: backward.
     accuracy : str or Level
         Accuracy level.
 
     Returns
     -------
     float
-        Largest difference of a component.
+        Largest absolute difference of a component.
 
     Raises
     ------
@@ -206,12 +207,12 @@ class PotentialBody(PlaneProblem):
 
     @property
     def parameters(self) -> tuple[float, ...]:
-        """The parameters p = (I11, I22, c1, c2, λ, μ)."""
+        """The parameters p = (I11, I22, c1, c2, λ, μ) of the equations."""
         return tuple(vars(self).values())
 
     @property
     def separates(self) -> bool:
-        """True if F2 of the quadratic potential is an integral."""
+        """True if the potential is quadratic, so that F2 = ½(I11ω1² + c2γ2²) is an integral."""
         return self.cubic == self.quartic == 0.0
 
     def potential(self, u: Array) -> Array:
@@ -329,7 +330,7 @@ def frequency(y: Array, p: Array) -> Array | float:
     y : ndarray, shape (5,) or (5, n)
         One or several states.
     p : ndarray, shape (6,)
-        Parameters.
+        Parameters (I11, I22, c1, c2, λ, μ).
 
     Returns
     -------
@@ -341,7 +342,7 @@ def frequency(y: Array, p: Array) -> Array | float:
     NotPositiveDefinite
         If I11 ≤ 0 or I22 ≤ 0.
     InvalidParameter
-        If the ratio of I11 and I22 is beyond 1e20.
+        If the larger of I11 and I22 exceeds 1e20 times the smaller.
     """
     I11, I22 = p[0], p[1]
     require_comparable(I11, I22)
@@ -408,16 +409,17 @@ class PlaneMotion:
         The motion at the sample times of a plot.
     energy : float
         Energy of the motion.
-    period : float, optional
-        Period 2(t2 − t1), from two successive crossings of the equator; None if there are fewer.
+    period : float or None
+        Period 2(t2 − t1), from the first two crossings of the equator, negative for backward motion; None if there are
+        fewer within the duration.
     closure_error : float
         Distance from the start after one period; ∞ without a period.
     is_fixed_point : bool
         True if the state is an equilibrium.
     is_one_sided : bool
-        True if the energy prevents the motion from reaching the equator.
+        True if the energy is below U everywhere on the equator, which the motion then cannot reach.
     integral : float
-        Range of F2 of a quadratic potential along the motion, relative to its largest value; ≥ 0.
+        Range of F2 = ½(I11ω1² + c2γ2²) along the motion, relative to the largest |F2|; round-off if F2 is an integral.
     """
 
     orbit: Orbit
@@ -493,7 +495,7 @@ def level_curve(body: PotentialBody, value: float) -> list[Array]:
     Returns
     -------
     list of ndarray, shape (m, 2)
-        Points (γ1, γ2) of each part of the curve.
+        Points (γ1, γ2) of each part of the curve; empty if U ≤ value everywhere.
     """
     radius = _radius(body, value)
     cuts = np.flatnonzero(np.diff(radius < _EDGE)) + 1
@@ -514,7 +516,7 @@ def forbidden(body: PotentialBody, energy: float) -> list[Array]:
     Returns
     -------
     list of ndarray, shape (482, 2)
-        One closed curve of points (γ1, γ2), or none.
+        One closed curve of points (γ1, γ2), the equator and the inner boundary; empty if there is no such part.
     """
     radius = _radius(body, energy)
     return (

@@ -97,7 +97,7 @@ class Conformal:
     tau : ndarray, shape (n,)
         Conformal time τ, 0 at t = 0.
     brackets : ndarray, shape (n, 2)
-        Brackets {ω1, γ3} and {ω2, γ3}, ±∞ on the equator.
+        Brackets {ω1, γ3} and {ω2, γ3}; ±∞ or NaN on the equator.
     residual : float
         Largest |ẋ − γ3{x, E}| off the equator, relative to the largest |ẋ|; of the size of round-off.
     """
@@ -109,7 +109,7 @@ class Conformal:
 
     @property
     def turns(self) -> int:
-        """Number of reversals of τ, that is, of crossings of the equator."""
+        """Number of reversals of τ, that is, of crossings of the equator, seen in the samples."""
         sign = np.sign(self.orbit.states[:, 4])
         return int(np.count_nonzero(np.diff(sign[sign != 0.0])))
 
@@ -136,7 +136,7 @@ def conformal(body: SuslovBody, start: Sequence[float], duration: float, accurac
     Returns
     -------
     Conformal
-        The motion at up to 100 000 times.
+        The motion at 17 to 100 001 equidistant times.
 
     Raises
     ------

@@ -46,7 +46,7 @@ _INSIDE = 1e-9
 _MIDDLE = 1e-100
 """Size, in units of the region, below which a point has no direction."""
 _MOST_SIZE = 1e30
-"""Largest q: numbers in plots are single precision."""
+"""Largest semi-axis, and inverse of the smallest: numbers in plots are single precision."""
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ class QuarticBody(PlaneProblem):
     OutsideRegion
         If E ≤ −|b3|.
     InvalidParameter
-        If a parameter is not finite, or the region of motion too large or too small.
+        If a parameter is not finite, or a semi-axis of the region of motion is not from 1e-30 to 1e30.
     NotPositiveDefinite
         If I11 ≤ 0 or I22 ≤ 0.
 
@@ -100,7 +100,7 @@ class QuarticBody(PlaneProblem):
         if not 1.0 / _MOST_SIZE <= smallest <= largest <= _MOST_SIZE:
             sizes = " and ".join(f"{plain(one, 2)}" if math.isfinite(one) else "beyond 1e308" for one in self.axes)
             raise InvalidParameter(
-                f"The region in the plane has half axes {sizes}, which no picture can show: choose more similar sizes "
+                f"The region in the plane has semi-axes {sizes}, which no picture can show: choose more similar sizes "
                 "of E, b3 and the moments of inertia."
             )
 
@@ -116,7 +116,7 @@ class QuarticBody(PlaneProblem):
 
     @property
     def axes(self) -> tuple[float, float]:
-        """The semi-axes of the ellipse γ3 b3 = −|b3| that bounds the motion."""
+        """The semi-axes along q1 and q2 of the ellipse γ3 b3 = −|b3| that bounds the motion."""
         size = 2.0 * self.h
         return math.sqrt(size * self.I22) / abs(self.b3), math.sqrt(size * self.I11) / abs(self.b3)
 
@@ -153,7 +153,7 @@ class QuarticBody(PlaneProblem):
         return (scale * self.I11, scale * self.I22, radius, radius, radius)
 
     def nearest_possible(self, q: tuple[float, float]) -> tuple[float, float]:
-        """Return q if the energy allows it, otherwise the nearest allowed point in the same direction.
+        """Return q if the energy allows it, otherwise the nearest allowed point in its direction, a little inside.
 
         Parameters
         ----------
@@ -163,7 +163,7 @@ class QuarticBody(PlaneProblem):
         Returns
         -------
         tuple of two floats
-            Point at which |γ3| ≤ 1.
+            Point at which |γ3| ≤ 1; on the axis of q1 if q is 0 and forbidden.
         """
         first, second = self.axes
         x, y = q[0] / first, q[1] / second
@@ -217,17 +217,17 @@ class QuarticBody(PlaneProblem):
         Returns
         -------
         list of ndarray of float, shape (181, 2)
-            Closed curves of points q, one for each value that occurs.
+            Closed curves of points q, one for each value that γ3 has on a curve.
         """
         return [self.ellipse(size) for size in self._size(np.array(heights)).tolist() if size > 0.0]
 
     def holes(self) -> list[Array]:
-        """Return the boundary of the forbidden inner ellipse.
+        """Return the boundary of the forbidden inner ellipse, if there is one.
 
         Returns
         -------
         list of ndarray of float, shape (181, 2)
-            One closed curve, or none if E ≤ |b3|.
+            One closed curve of points q for E > |b3|, otherwise empty.
         """
         return self.equipotentials([math.copysign(1.0, self.b3)])
 
@@ -292,7 +292,7 @@ class QuarticBody(PlaneProblem):
         Returns
         -------
         list of ndarray of float, shape (n, 2)
-            One closed curve of points (q, p), or two for E ≥ |b3|, the right one first.
+            One closed curve of points (q, p), n = 362, or two with n = 181 for E ≥ |b3|, the right one first.
         """
         size = abs(self.b3)
         first = math.acos(self.E / size) if size > self.E else 0.0
@@ -317,7 +317,7 @@ def level_error(body: QuarticBody, states: Array) -> float:
     Returns
     -------
     float
-        The error of H.
+        The largest |H − ½|.
     """
     q, p = body.to_plane(states)
     return float(0.5 * np.abs(np.sum(p * p, axis=1) + body.height(q) ** 2 - 1.0).max())
@@ -331,7 +331,7 @@ def state_at(body: QuarticBody, q: Sequence[float], direction: float) -> tuple[f
     body : QuarticBody
         The body.
     q : sequence of float, shape (2,)
-        Point of the plane.
+        Point of the plane, at which |γ3| ≤ 1.
     direction : float
         Angle of q̇, in radians.
 
@@ -343,7 +343,7 @@ def state_at(body: QuarticBody, q: Sequence[float], direction: float) -> tuple[f
     Raises
     ------
     OutsideRegion
-        If |γ3| > 1 at the point.
+        If |γ3| exceeds 1 by more than 1e-9 at the point.
     InvalidParameter
         If a number is not finite.
     """
@@ -437,7 +437,7 @@ class QuarticSection(PoincareSection):
 
     @property
     def slowness(self) -> float:
-        """The square root of the ratio of the moments of inertia."""
+        """The square root of the ratio of the larger to the smaller of I11 and I22."""
         return math.sqrt(max(self.body.I11, self.body.I22) / min(self.body.I11, self.body.I22))
 
     @property
@@ -529,4 +529,4 @@ SECTION = section_motions(
     SYSTEM,
     period=3,
 )
-"""Motions from the section along the axis of the accessible region."""
+"""Motions from points of the section along the major axis of the region of motion."""

@@ -57,13 +57,13 @@ class Scattering(Result):
     cos_chi : float
         Coefficient cos χ, −1 to 1, see Notes.
     sin_chi : float
-        Coefficient sin χ, 0 to 1.
+        Coefficient sin χ, 0 to 1, see Notes.
     phi_star : float
-        Phase φ* in radians, −π to π; 0 if sin χ = 0.
+        Phase φ* in radians, −π to π, see Notes; 0 if sin χ = 0.
     status : Status
         State of the computation, see `Status`.
     error_estimate : float
-        Estimated error of Γ⁺, ≥ 0, for any θ⁻ and φ.
+        Estimated error of Γ⁺, 0 to 2, for any θ⁻ and φ.
     cost : Cost
         Steps and time of the computation.
 
@@ -88,7 +88,7 @@ class Scattering(Result):
         Returns
         -------
         Labels
-            The angle θ⁺ over θ⁻ and φ.
+            The angle θ⁺ over 91 angles θ⁻ from 0 to π and 181 phases φ from −π to π.
         """
         theta, phi = np.linspace(0.0, math.pi, 91), np.linspace(-math.pi, math.pi, 181)
         return Labels(
@@ -155,14 +155,14 @@ def scattering(body: SuslovBody, accuracy: Accuracy, arc: int = 1, distance: flo
     Parameters
     ----------
     body : SuslovBody
-        Body with b = 0 and I13 or I23 not 0.
+        Body with b = 0, and I13 or I23 nonzero.
     accuracy : str or Level
         Accuracy level or its name, see `level`.
-    arc : int, optional
-        Arc σ = ±1, the sign of I13ω1 + I23ω2.
+    arc : {1, -1}, default 1
+        Arc σ, the sign of I13ω1 + I23ω2.
     distance : float, optional
-        Component of ω across ξ at the start, positive, in units of |ω⁻|; for I13 = 0 this is |ω2(0)|.  Then φ and θ⁻
-        belong to the start.  By default they are asymptotic.
+        Component of ω across ξ at the start, in units of |ω⁻|, above 0 and at most κ/K; for I13 = 0 it is |ω2(0)|/|ω⁻|.
+        Then φ and θ⁻ belong to the start.  By default they are asymptotic.
 
     Returns
     -------
@@ -174,7 +174,7 @@ def scattering(body: SuslovBody, accuracy: Accuracy, arc: int = 1, distance: flo
     InvalidParameter
         If the body has a field, I13 = I23 = 0, or the arc or the distance is impossible.
     WorkLimit
-        If γ rotates too often during the passage.
+        If γ rotates too often during the passage, see `shape`.
 
     Notes
     -----
@@ -224,19 +224,19 @@ def cos_chi(body: SuslovBody) -> float:
     Parameters
     ----------
     body : SuslovBody
-        Body with b = 0 and I13 or I23 not 0.
+        Body with b = 0, and I13 or I23 nonzero.
 
     Returns
     -------
     float
-        The cosine of the angle of scattering.
+        The cosine of the angle χ, −1 to 1.
 
     Raises
     ------
     InvalidParameter
         If the body has a field, or I13 = I23 = 0.
     WorkLimit
-        If the shape of the motion needs too much work, see `shape`.
+        If γ rotates too often during a passage, see `shape`.
 
     Examples
     --------
@@ -259,12 +259,12 @@ def cos_chi(body: SuslovBody) -> float:
 
 
 def cos_chi_over(low: int, high: int, I22: float, I13: float, I23: float) -> Array:
-    """Return cos χ in closed form over evenly spaced k, with I11 from `I11_at`.
+    """Return cos χ in closed form over k in steps of 0.05, with I11 from `I11_at`.
 
     Parameters
     ----------
     low, high : int
-        First and last k.
+        First and last k, both included; low ≤ high.
     I22 : float
         Moment of inertia about the second axis, I22 > 0.
     I13, I23 : float
@@ -273,7 +273,7 @@ def cos_chi_over(low: int, high: int, I22: float, I13: float, I23: float) -> Arr
     Returns
     -------
     ndarray, shape (m, 2)
-        Values of k and cos χ; those of k without a body are left out.
+        Values of k and cos χ; a k with I11 ≤ 0, or for which `cos_chi` raises an error, is left out.
     """
     rows = []
     for one in np.linspace(low, high, 20 * (high - low) + 1).tolist():
@@ -297,7 +297,7 @@ def theta_plus_grid(rotation: Scattering, m: int, n: int) -> Array:
     Returns
     -------
     ndarray, shape (n, m)
-        Angles θ⁺ in radians; each row has one θ⁻.
+        Angles θ⁺ in radians; rows have increasing θ⁻, columns increasing φ.
     """
     phi, theta = centres(-math.pi, math.pi, m), centres(0.0, math.pi, n)
     return as_read_only(rotation.theta_plus(theta[:, None], phi[None, :]))
@@ -322,14 +322,14 @@ def start(
     phi : float
         Azimuth φ, in radians: the phase of `scattering` with this distance.
     distance : float
-        Component of ω across ξ, in units of |ω⁻|, positive.
-    arc : int, default 1
-        Arc σ, 1 or −1.
+        Component of ω across ξ, in units of |ω⁻|, above 0 and at most κ/K.
+    arc : {1, -1}, default 1
+        Arc σ, the sign of I13ω1 + I23ω2.
 
     Returns
     -------
     omega : tuple of two floats
-        Angular velocity (ω1, ω2).
+        Angular velocity (ω1, ω2), in rad/T.
     gamma : tuple of three floats
         Vertical γ.
 

@@ -52,7 +52,7 @@ class AngleSection(PoincareSection):
     E : float
         Energy, any finite number.
     k : int, default 3
-        Index of the section, 1, 2 or 3.
+        Index of the component of γ that is 0 on the section, 1, 2 or 3.
 
     Raises
     ------
@@ -72,13 +72,13 @@ class AngleSection(PoincareSection):
         require_finite(E=self.E)
         if self.k not in (1, 2, 3):
             raise InvalidParameter(
-                f"k = {self.k} is no component of γ: choose 1, 2 or 3 for the section γ1 = 0, γ2 = 0 or γ3 = 0."
+                f"k = {self.k} is out of range: choose 1, 2 or 3 for the section γ1 = 0, γ2 = 0 or γ3 = 0."
             )
 
     @property
     @abstractmethod
     def _bottom(self) -> float:
-        """The energy from which h counts."""
+        """The energy at which h = 0."""
 
     @abstractmethod
     def _kinetic(self, u: Array, gamma: Array) -> Array:
@@ -109,12 +109,12 @@ class AngleSection(PoincareSection):
 
     @property
     def lowest_energy(self) -> float:
-        """The energy below which no motion reaches the section."""
+        """The energy above which motions cross the section, the minimum of (b, γ) on it."""
         return -math.hypot(*self._field)
 
     @property
     def h(self) -> float:
-        """The energy above the lowest."""
+        """The energy E above the lowest energy of the body."""
         return self.E - self._bottom
 
     @property
@@ -176,7 +176,7 @@ class AngleSection(PoincareSection):
         states : ndarray, shape (n, 5)
             States (ω1, ω2, γ1, γ2, γ3).
         possible : ndarray of bool, shape (n,)
-            True for points with motion.
+            True for points that motions cross: 0 < δ < π and E > (b, γ).
         """
         psi, delta = np.array(psi, float, ndmin=1), np.array(delta, float, ndmin=1)
         gamma = self._gamma(psi)
@@ -208,7 +208,7 @@ class AngleSection(PoincareSection):
         Returns
         -------
         ndarray, shape (n, 2)
-            Angles ψ and δ, in radians.
+            Angles ψ, −π to π, and δ, 0 to π, in radians.
         """
         first, second = self._in_plane
         psi = np.arctan2(states[:, 2 + second], states[:, 2 + first])
@@ -236,19 +236,19 @@ class AngleSection(PoincareSection):
         return [arc for arc in arcs if arc[0] < arc[1]]
 
     def spread(self, count: int, window: Window | None = None) -> tuple[tuple[float, ...], ...]:
-        """Return states that are spread evenly over the possible part of a window.
+        """Return states that are spread evenly over the part of a window that motions cross.
 
         Parameters
         ----------
         count : int
             Number of states.
         window : ((float, float), (float, float)), optional
-            Corners (ψ, δ) of the window, in radians.  By default the whole section.
+            Lower left and upper right corner (ψ, δ) of the window, in radians.  By default the whole section.
 
         Returns
         -------
         tuple of tuple of float
-            The states; fewer only if nothing is possible, or the possible part contains no double.
+            The states; fewer only if the possible part is empty or too small for double precision.
         """
         (psi0, delta0), (psi1, delta1) = window or ((-math.pi, 0.0), (math.pi, math.pi))
         arcs = self._arcs(psi0, psi1)
@@ -284,7 +284,7 @@ class AngleSection(PoincareSection):
         Parameters
         ----------
         window : ((float, float), (float, float))
-            Corners (ψ, δ) of the window, in radians.
+            Lower left and upper right corner (ψ, δ) of the window, in radians.
 
         Returns
         -------
@@ -306,7 +306,12 @@ class SuslovSection(AngleSection):
     E : float
         Energy, any finite number.
     k : int, default 3
-        Index of the section, 1, 2 or 3.
+        Index of the component of γ that is 0 on the section, 1, 2 or 3.
+
+    Raises
+    ------
+    InvalidParameter
+        If E is not finite or k is out of range.
     """
 
     body: SuslovBody
@@ -322,7 +327,7 @@ class SuslovSection(AngleSection):
 
     @property
     def slowness(self) -> float:
-        """The square root of the ratio of the moments of inertia."""
+        """The square root of the ratio of the larger to the smaller of I11 and I22."""
         return math.sqrt(max(self.body.I11, self.body.I22) / min(self.body.I11, self.body.I22))
 
     @property
@@ -352,7 +357,7 @@ SECTION = section_motions(
     (
         *body_parameters(SYSTEM, 1.5, 1.0, 0.0, 0.0, 0.3, -0.5, 1.0),
         with_default(known.H_SUSLOV, 3.0),
-        integer("k", "k", 3, 1, 3, "The section is γ_k = 0, γ_k growing."),
+        integer("k", "k", 3, 1, 3, "The section is γ_k = 0, upward crossings."),
     ),
     (with_default(known.PSI, 1.5), with_default(known.DELTA, 1.2)),
     _section,

@@ -167,7 +167,7 @@ def h_min(f: float) -> float:
     Parameters
     ----------
     f : float
-        Area integral, any finite number, in units b = 1.
+        Area integral, |f| ≤ 1e150, in units b = 1.
 
     Returns
     -------
@@ -177,7 +177,7 @@ def h_min(f: float) -> float:
     Raises
     ------
     InvalidParameter
-        If f is not finite.
+        If f is not finite, or |f| is so large that n underflows to 0.
     """
     require_finite(f=f)
     low, high = 0.0, 1.0
@@ -298,7 +298,7 @@ def curve(h_end: float, points: int = 200) -> Array:
     h_end : float
         The last energy, −1 < h_end ≤ 1e12, in units b = 1.
     points : int, optional
-        Number of points, 1 to 100 000.
+        Number of points, both ends included, 1 to 100 000; 1 gives only the point (−1, 0).
 
     Returns
     -------

@@ -110,7 +110,7 @@ def period_from_gaps(g10, g20):
 
 @kernel
 def f_max_and_roots(h, f):
-    """Return f_max(h), `roots(h, f)` and the period of n3 (∞ on the separatrix); zeros if |f| > f_max."""
+    """Return f_max(h), `roots(h, f)` and the period of n3, ∞ on the separatrix; the last two are 0 if |f| > f_max."""
     fm = largest_f(h)
     if not abs(f) <= fm * (1.0 + 1e-15):
         return fm, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), 0.0

@@ -32,7 +32,7 @@ def _pairs(intervals: Iterable[Enclosure] | None) -> list[list[str]] | None:
 
 
 def _short(number: Fraction) -> str:
-    """Return a decimal if it terminates, otherwise p/q."""
+    """Return a decimal if it terminates within 100 digits, otherwise p/q."""
     rest = number.denominator
     for prime in (2, 5):
         while rest % prime == 0:
@@ -57,18 +57,18 @@ def statement_text(proof: Proof | EdgeProof) -> str:
     place = f"h = {_short(proof.h)}, f = {_short(proof.f)}"
     if isinstance(proof, EdgeProof):
         moves = (
-            "has exactly two equilibria, one attracts and one repels the other motions on it; at both the body "
+            "has exactly two equilibria: one attracts, one repels the other motions on it, and at both the body "
             "turns steadily about the vertical"
             if proof.statement == TWO_EQUILIBRIA
             else "is one periodic orbit"
         )
         return (
             f"Proved: {place} lies on the edge of the possible (h, f), so there is no torus and no limit cycle, "
-            f"and n3 = {_short(proof.n)} stays. For a = {_short(proof.a)} the circle of these states {moves}."
+            f"and n3 = {_short(proof.n)} at all times. For a = {_short(proof.a)} the circle of these states {moves}."
         )
     of = f"the torus {place} for a = {_short(proof.a)}"
     if proof.statement == TWO_CYCLES:
-        return f"Proved: {of} has exactly two limit cycles, one attracts and one repels."
+        return f"Proved: {of} has exactly two limit cycles: one attracts and one repels."
     if proof.statement == NO_CYCLE:
         return f"Proved: {of} has no limit cycle."
     return f"Undecided at {proof.bits} bits: whether {of} has limit cycles; |trace| is too close to 2."
@@ -85,14 +85,20 @@ def certificate(proof: Proof | EdgeProof) -> dict[str, Any]:
     Returns
     -------
     dict
-        All numbers of the proof, as strings and pairs of strings.
+        The format, the statement, the exact numbers as strings, the enclosures as pairs of strings, and the versions of
+        the libraries.
+
+    Raises
+    ------
+    MissingLibrary
+        If python-flint is not installed.
 
     Notes
     -----
-    The data of a torus contain `trace`, two decimals that enclose the absolute value of t, which are doubles too unless
-    the statement needs more digits; `trace_ball`, the same with all digits; `roots`, `half` and `steps`, see
-    `suslov_hess.proof`.  Each step has its exact start, radius and bound, its number of terms, and enclosures of its
-    matrix.  The data of a circle on the edge are the attributes of `EdgeProof`.
+    The data of a torus contain `trace`, two decimals that enclose |t|, also after conversion to doubles unless the
+    statement needs more digits; `trace_ball`, the same with all digits; `roots`, `half` (the matrix of the half map)
+    and `steps`, see `suslov_hess.proof`.  Each step has its exact start, radius and bound, its number of terms, and
+    enclosures of its matrix.  The data of a circle on the edge are the attributes of `EdgeProof`.
 
     Examples
     --------

@@ -52,7 +52,8 @@ def matrices(a: Array | float, h: Array, f: Array, accuracy: Accuracy) -> Array:
     """Return the matrices of the circle maps of tori, as rows (Re α, Im α, Im β, L, ζ, steps).
 
     α and β are the coefficients of the map z → (αz + β)/(β̄z + ᾱ), z = e^{iφ}, with |α|² − |β|² = 1.  The first three
-    numbers are multiplied by e^{−L}; ζ is the lift of arg α, in radians, and `steps` the number of Taylor steps.
+    numbers are multiplied by e^{−L}; ζ is the lift of arg α, in radians, and `steps` the number of Taylor steps.  For
+    f = 0, h < 1, where w vanishes, they are those of the limit f → 0+.
 
     Parameters
     ----------
@@ -78,7 +79,7 @@ def matrices(a: Array | float, h: Array, f: Array, accuracy: Accuracy) -> Array:
     level = as_level(accuracy)
     out = np.empty((h.size, 6))
     if not matrices_into(np.full(h.size, a, float), h, f, level.order, level.tolerance, _MAX_STEPS, out):
-        raise WorkLimit("These tori need too many steps: choose smaller a, or (h, f) farther from (1, 0).")
+        raise WorkLimit("These tori need too many steps: choose a smaller |a|, or (h, f) farther from (1, 0).")
     return out
 
 
@@ -91,7 +92,7 @@ def discriminants(rows: Array) -> Array:
     Parameters
     ----------
     rows : ndarray, shape (..., 6)
-        Rows of `matrices`.
+        Rows of `matrices`; the last two columns are not used and may be missing.
 
     Returns
     -------
@@ -354,7 +355,7 @@ def neighbours(h: Array, f: Array, edge: Array) -> tuple[Array, Array]:
     """Return tori moved by three units in the last place, as `measured.perturb` moves states.
 
     f moves into the region, which ends at f_max(h).  h moves into the region near that edge, otherwise away from the
-    separatrix.
+    separatrix; it stays if h ≤ −1 + 1e-9.
 
     Parameters
     ----------
@@ -387,7 +388,7 @@ def circle_map(a: float, h: float, f: float, accuracy: Accuracy) -> CircleMap:
     h : float
         Energy, −1 < h ≤ 1e12, in units b = 1.
     f : float
-        The area integral, |f| ≤ f_max(h), in units b = 1.
+        The area integral, |f| ≤ f_max(h), in units b = 1; f = 0 is the limit f → 0+.
     accuracy : str or Level
         Accuracy level or its name, see `level`.
 
@@ -409,8 +410,8 @@ def circle_map(a: float, h: float, f: float, accuracy: Accuracy) -> CircleMap:
 
     Notes
     -----
-    The error estimate compares the map with a second run at a hundredth of the tolerance on one of the `neighbours` of
-    the torus, see `numerics.measured`.
+    The error estimate compares the map with that of the torus moved by `neighbours`, at a hundredth of the tolerance,
+    see `numerics.measured`.
 
     References
     ----------

@@ -47,7 +47,8 @@ _evaluate = evaluation(9)
 def monodromy(h, f, a, order, tolerance, max_steps):
     """Return (Re α, Im α, Im β, L, ζ, steps); the first three are times e^{−L}, and ζ is the lift of arg α.
 
-    A and B are rescaled as they grow, so that a and h may be large.  steps = −1 means that the step limit was reached.
+    A and B are rescaled as they grow, so that a and h may be large.  steps = −1 means that the step limit was reached,
+    or that a step is not positive.
     """
     _, n1, _, g10, _, g20, w_low, v_low = roots(h, f)
     half_period = 0.5 * period_from_gaps(g10, g20)
@@ -101,7 +102,7 @@ def monodromy(h, f, a, order, tolerance, max_steps):
 
 @kernel
 def matrices_into(a, h, f, order, tolerance, max_steps, out):
-    """Store `monodromy` of each torus (a[i], h[i], f[i]) in out[i]; return False if a torus reached the step limit."""
+    """Store `monodromy` of each torus (a[i], h[i], f[i]) in out[i]; return False if a torus has steps = −1."""
     complete = True
     for i in range(h.size):
         row = monodromy(h[i], f[i], a[i], order, tolerance, max_steps)

@@ -11,7 +11,7 @@ revolution
 
 whose angle about the Z axis is φ.  If w ≠ 0, the point and (h, f) determine the state: n3 = w²/2 − h, and (n1, n2) has
 the component f/|w| along w and ṅ3/|w| across it.  So the map is an embedding of every torus with f ≠ 0, and of those
-with f = 0, h > 1.  For f = 0, h < 1 a circle of states has w = 0, and the origin stands for all of it.
+with f = 0, h > 1.  For f = 0, h < 1 a circle of states has w = 0, and the origin represents all of it.
 """
 
 from __future__ import annotations

@@ -42,7 +42,7 @@ class HessBody:
     Raises
     ------
     InvalidParameter
-        If a parameter is not finite, or so large that I11, a or b overflows.
+        If a parameter is not finite, or I11, a or b overflows.
     NotPositiveDefinite
         If I22 ≤ 0.
 
@@ -66,7 +66,7 @@ class HessBody:
         require_finite(**vars(self))
         require_positive_definite(1.0, self.I22)
         if not (math.isfinite(self.a) and math.isfinite(self.I11) and math.isfinite(self.b)):
-            raise InvalidParameter("I22 is too small beside I23 or b3: choose I23/I22 and b3/I22 below 1e150.")
+            raise InvalidParameter("I22 is too small beside I23 or b3: choose |I23|/I22 and |b3|/I22 below 1e150.")
 
     @property
     def a(self) -> float:

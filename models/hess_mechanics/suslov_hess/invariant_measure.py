@@ -17,7 +17,7 @@ takes ζ to some ζ_s with ζ_T = ζ: the density at s is p(φ; ζ_s), and along
 
 So s and ψ − δ(s) + 2πρs/T are angles of the torus in which the flow is linear: quasi-periodic for irrational ρ,
 periodic on every orbit for rational ρ.  If |t| > 2 every orbit tends to a limit cycle, and no invariant measure has a
-density; the same holds for |t| = 2.
+density; the same holds for |t| = 2, unless Θ is the identity.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ class InvariantMeasure:
 
         Parameters
         ----------
-        phi : array_like
+        phi : array_like of float
             Angles φ, in radians.
 
         Returns
@@ -97,8 +97,8 @@ def invariant_measure(theta: CircleMap) -> InvariantMeasure:
     """
     if theta.kind != "elliptic":
         raise InvalidParameter(
-            f"At a = {theta.a:g}, h = {theta.h:g}, f = {theta.f:g} the circle map has limit cycles, and no invariant "
-            "measure with a density: choose a torus with |trace| < 2."
+            f"At a = {theta.a:g}, h = {theta.h:g}, f = {theta.f:g} the circle map is not elliptic, as an invariant "
+            "density requires: choose a torus with |trace| < 2."
         )
     _, im, im_beta = theta.matrix
     # β̄z² + (ᾱ − α)z − β = 0 with an imaginary β has the roots ζ and 1/ζ: take the one inside the disk.
@@ -137,7 +137,7 @@ def zeta_at(theta: CircleMap, times: Sequence[float] | Array, accuracy: Accuracy
     Raises
     ------
     InvalidParameter
-        If the map is not elliptic, f = 0, or the density is too narrow to draw.
+        If the map is not elliptic, f = 0, the density is too narrow to draw, or the times are not in order.
     WorkLimit
         If an orbit needs too many steps.
     """

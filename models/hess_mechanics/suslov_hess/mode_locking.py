@@ -124,12 +124,12 @@ def critical_a_of_tori(h: Array, f: Array, accuracy: Accuracy, high: float) -> A
     accuracy : str or Level
         Accuracy level.
     high : float
-        Upper end of the search interval (0, high).
+        Upper end of the search interval, positive; its lower end is 1e-9.
 
     Returns
     -------
     ndarray, shape (n,)
-        Values of a > 0; NaN where the map locks at a = 1e-9 or does not lock at a = `high`.
+        Values of a > 0; NaN unless the map is elliptic at a = 1e-9 and locks at a = `high`.
 
     Raises
     ------
@@ -160,12 +160,12 @@ def critical_a(h: float, f: float, accuracy: Accuracy, high: float = 10.0) -> fl
     accuracy : str or Level
         Accuracy level or its name, see `level`.
     high : float, optional
-        Upper end of the search interval (0, high), at most 1e6.
+        Upper end of the search interval, positive, at most 1e6; its lower end is 1e-9.
 
     Returns
     -------
     float
-        The critical inertia parameter a, 0 < a < high.
+        The critical inertia parameter a, 1e-9 < a < high.
 
     Raises
     ------
@@ -174,7 +174,7 @@ def critical_a(h: float, f: float, accuracy: Accuracy, high: float = 10.0) -> fl
     Separatrix
         If h = 1 and f = 0.
     InvalidParameter
-        If the map does not lock at a = high, or `high` is too large.
+        If the map does not lock at a = high or already locks at a = 1e-9, or an argument is not finite or too large.
     WorkLimit
         If the torus needs too many steps.
 
@@ -190,8 +190,8 @@ def critical_a(h: float, f: float, accuracy: Accuracy, high: float = 10.0) -> fl
     a = float(critical_a_of_tori(np.array([h], float), np.array([f], float), accuracy, high)[0])
     if math.isnan(a):
         raise InvalidParameter(
-            f"At this h and f no limit cycles appear between a = 0 and a = {high:g}: choose another torus or a larger "
-            "`high`."
+            f"At this h and f no limit cycles appear between a = 1e-9 and a = {high:g}: choose another torus or a "
+            "larger `high`."
         )
     return a
 

@@ -192,7 +192,7 @@ def prove(
     most_work : float, optional
         Largest number of Taylor steps times the square of their terms, at one precision; positive.
     digits : int, optional
-        Number of decimal digits to which |t| is enclosed.
+        Number of decimal digits to which |t| is to be enclosed; the result has fewer if a limit is reached.
 
     Returns
     -------
@@ -211,7 +211,8 @@ def prove(
     Separatrix
         If h = 1 and f = 0.
     WorkLimit
-        If `most_work` is reached at the first precision, or (h, f) is too close to (1, 0).
+        If `most_work` is reached at the first precision, (h, f) is too close to (1, 0), or an `EdgeProof` needs more
+        precision than allowed.
 
     Notes
     -----
@@ -249,7 +250,7 @@ def prove(
                 if work > most_work:
                     if proof is None:
                         raise WorkLimit(
-                            f"This proof needs more than {len(plan)} steps: choose smaller |a|, or (h, f) "
+                            f"This proof needs more than {len(plan)} steps: choose a smaller |a|, or (h, f) "
                             "farther from (1, 0)."
                         )
                     return proof
@@ -359,6 +360,7 @@ def _proof(
     bits: int,
     begun: float,
 ) -> Proof:
+    """Return the proof that the steps of a plan give at the present precision, or that it is undecided."""
     from flint import arb
 
     a, f = arb(rational(at[0])), arb(rational(at[2]))
@@ -448,7 +450,7 @@ def _step(
 
 
 def _verdict(A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall) -> tuple[str, Enclosure]:
-    """Return the statement and t, from the tighter of two forms that enclose t."""
+    """Return the statement and the enclosure of t, the intersection of its two forms."""
     small, large = enclosure(B * C), enclosure(A * D)
     t = Enclosure(2 + 4 * max(small.low, large.low - 1), 2 + 4 * min(small.high, large.high - 1))
     if t.low > 2 or t.high < -2:
@@ -474,7 +476,7 @@ def _cycles(
 def _rotation(
     statement: str, t: Enclosure, A: ArbBall, B: ArbBall, C: ArbBall, D: ArbBall, theta: ArbBall
 ) -> Enclosure | None:
-    """Return ρ; None if the balls are too wide."""
+    """Return ρ; None if the statement is undecided or the balls are too wide."""
     from flint import arb
 
     quadrants = enclosure(2 * theta / arb.pi()) if theta.is_finite() else None

@@ -102,7 +102,7 @@ class Torus:
         Returns
         -------
         Torus
-            The other torus.
+            The new torus.
         """
         return Torus(**{**vars(self), **values})
 
@@ -118,6 +118,11 @@ class Torus:
         -------
         (float, float)
             Lower and upper bound; ±∞ where there is no limit, (0, 0) for f if h ≤ −1.
+
+        Raises
+        ------
+        InvalidParameter
+            If the h that bounds f, or the f that bounds h, is too large or not finite.
         """
         if name == "h":
             return h_min(self.f), math.inf
@@ -299,7 +304,7 @@ def values_at(a: Array | float, h: Array | float, f: Array | float, accuracy: Ac
     level = as_level(accuracy)
     a, h, f = _together(a, h, f)
     if a.ndim != 1 or a.size > MAX_POINTS:
-        raise WorkLimit(f"At most {MAX_POINTS} tori at a time: choose fewer points.")
+        raise WorkLimit(f"At most {MAX_POINTS} tori, in flat arrays, are allowed: flatten them or choose fewer points.")
     if not (np.all(np.isfinite(f)) and np.all(np.abs(h) <= 1e12)):
         raise InvalidParameter("An h or f is not finite, or |h| exceeds 1e12: choose finite h and f, and |h| ≤ 1e12.")
     check_a(float(np.max(np.abs(a), initial=0.0)))
@@ -360,7 +365,7 @@ def tongue_curve(plane: str, torus: Torus, window: Sequence[float], accuracy: Ac
     torus : Torus
         The torus.
     window : sequence of float
-        Range x0, x1 of the horizontal axis; further numbers are ignored, and all of them in the plane "h, f".
+        Range x0, x1 of the horizontal axis, not used in the plane "h, f"; further numbers are ignored.
     accuracy : str or Level
         Accuracy level.
     points : int, default 48
@@ -369,8 +374,8 @@ def tongue_curve(plane: str, torus: Torus, window: Sequence[float], accuracy: Ac
     Returns
     -------
     ndarray, shape (n, 2)
-        Points of the boundary: in (h, f) those of `tongue_boundary`, f ≥ 0, otherwise a over h or f, where there is one
-        with 0 < a < 20.
+        Points of the boundary: in the plane "h, f" those of `tongue_boundary`, f ≥ 0; otherwise the points (h, a) or
+        (f, a) with 0 < a < 20, fewer than `points` where there is no such a.
 
     Raises
     ------
@@ -426,7 +431,7 @@ def perturbed_rotation(
     Raises
     ------
     InvalidParameter
-        If |ε| ≥ 1/3, or the arrays have different shapes.
+        If |ε| ≥ 1/3, ε is not finite, or the arrays do not broadcast.
     WorkLimit
         If a torus needs too many steps.
     """
@@ -468,7 +473,7 @@ def parameter_at(rho: float, line: ParameterLine, accuracy: Accuracy) -> float |
     Returns
     -------
     float or None
-        The value; None if ρ does not pass through it between two neighbours of 121 equidistant tori of the line.
+        The first such value; None if ρ does not pass through `rho` between any two neighbours of 121 equidistant tori.
 
     Raises
     ------
@@ -730,7 +735,7 @@ def plateaus(rho: Array, possible: Mask) -> list[Fraction]:
     Returns
     -------
     list of Fraction
-        Values that two neighbours share to 1e-6, with denominators up to 12, sorted by denominator.
+        Values that two neighbours share to 1e-6, with denominators up to 12, sorted by denominator, then by value.
     """
     level = np.flatnonzero(possible[1:] & possible[:-1] & (np.abs(np.diff(rho)) < 1e-6))
     steps = [(Fraction(float(rho[i])).limit_denominator(12), float(rho[i])) for i in level]

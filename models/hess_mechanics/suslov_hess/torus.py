@@ -97,7 +97,7 @@ def start_of_track(body: HessBody, h: float, f: float, phi0: float, duration: fl
     state : ndarray, shape (5,)
         State (w1, w2, n1, n2, n3).
     duration : float
-        Time in units b = 1, at most `MAX_RETURNS` periods of n3; at most 20 on the separatrix.
+        Time in units b = 1, at most `MAX_RETURNS` periods of n3, or 20 on the separatrix; not limited if negative.
 
     Raises
     ------

@@ -74,7 +74,7 @@ class TorusSection(PoincareSection):
 
     @property
     def surface(self) -> Plane:
-        """The plane that n3 crosses upwards."""
+        """The plane of constant n3, crossed while n3 increases."""
         return Plane((0.0, 0.0, 0.0, 0.0, 1.0), self.n3)
 
     @property
@@ -89,8 +89,8 @@ class TorusSection(PoincareSection):
 
     @cached_property
     def measure(self) -> str:
-        """Reason, in words, why the torus has a smooth invariant measure; empty if the circle map is not elliptic."""
-        # The map degenerates for f = 0, where the motion reaches h + n3 = 0.
+        """Reason, in words, why the torus has a smooth invariant measure; empty if none is known."""
+        # There is no circle map on the separatrix, nor for |a| > 1e6.
         with suppress(ModelError):
             if circle_map(self.a, self.h, self.f, PRECISE).kind == "elliptic":
                 return "the trace of the circle map is below 2, so the torus has a smooth invariant measure"

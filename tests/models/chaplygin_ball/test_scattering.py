@@ -113,7 +113,7 @@ test_what_cannot_be_or_takes_too_long_is_refused_in_a_sentence = refused(
     (lambda: scattered(max_steps=1000), "smaller 𝒟", WorkLimit),
     (
         lambda: scattered(BallBody(1.0, 1.5, 1e-3, 0.0, 300.0), distance=1e-10),
-        r"about \de\+\d\d steps: choose larger I13",
+        r"about \de\+\d\d steps: choose fewer phases",
         WorkLimit,
     ),
 )

@@ -74,7 +74,7 @@ def test_the_integrable_tops_keep_their_integrals(body, integral):
 
 test_what_is_no_body_is_refused_in_a_sentence = refused(
     (lambda: HeavyBody((0.0, 1.0, 2.0), (1.0, 0.0, 0.0), 1.0), "a1 = 0.*choose a1 > 0", NotPositiveDefinite),
-    (lambda: HeavyBody((1.0, 1e-25, 2.0), (1.0, 0.0, 0.0), 1.0), "choose ratios below"),
+    (lambda: HeavyBody((1.0, 1e-25, 2.0), (1.0, 0.0, 0.0), 1.0), "choose ratios of at most"),
     (lambda: HeavyBody.hess((1.0, 2.0, 1.5), 1.0), "I2 = 2 must lie between I1 = 1 and I3 = 1.5"),
     (lambda: solve(GESS1, [1e200, 0.0, 0.0, 0.0, 0.0, 1.0], [1.0], "draft"), "less extreme", ModelError),
 )

@@ -19,7 +19,7 @@ class Answer(Generic[S]):
         At most 90 characters, which fit on a line.
     condition : callable
         `condition(state)` returns True if the sentence is true of the state; by default always.  It has to be cheap: a
-        closed form, or a result that the pictures compute anyway.
+        closed form, or a result that the pictures compute anyway.  It may raise `ModelError`.
     """
 
     sentence: str

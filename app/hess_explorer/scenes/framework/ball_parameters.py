@@ -50,4 +50,4 @@ PARAMETERS = {
     "b₂": "b2",
     "b₃": "b3",
 }
-"""Symbols of the parameters of its section → their names."""
+"""Names of the parameters of a ball's section, by symbol."""

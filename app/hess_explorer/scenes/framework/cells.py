@@ -28,9 +28,9 @@ def cells_by_rows(
     stages: Sequence[Sequence[Arguments]],
     sooner: Callable[[], object] = lambda: None,
 ) -> tuple[Array, int] | None:
-    """Return the finest known cells (n, …, m), and the number of rows that are still coarse.
+    """Return the cells (n, …, m) in the resolution of the last stage, and the number of rows that are still coarse.
 
-    Return None until all rows of the first stage are known.
+    A row that is not yet known repeats the cells of the stage before.  None until all rows of the first stage are known.
 
     Parameters
     ----------
@@ -39,10 +39,15 @@ def cells_by_rows(
     row_of : callable
         Computes a row of cells (…, m) from its arguments.
     stages : sequence of sequences
-        Arguments of the rows of each stage, the coarsest first.  Each cell is the middle one of `COARSE`² cells of the
-        next stage.
-    sooner : callable
-        Requests results that are computed right after the first stage.
+        Arguments of the rows of each stage, the coarsest first.  Each stage has `COARSE` times as many rows
+        and columns as the one before.
+    sooner : callable, optional
+        Requests results that are computed right after the first stage; by default none.
+
+    Returns
+    -------
+    (array (n, …, m), int) or None
+        The cells, and the number of rows of the last stage that are still unknown.
     """
     cells: Array | None = None
     left = 0
@@ -62,6 +67,14 @@ def cells_by_rows(
 
 
 def change_percentage(cells: Array, truth: Array) -> float:
-    """Return the percentage of cells (n, m) that differ from the truth, given in cells of equal or smaller size."""
+    """Return the percentage of the cells of `truth` in which `cells`, a grid that is no finer, has another value.
+
+    Parameters
+    ----------
+    cells : array (n, m)
+        Categories of the cells.
+    truth : array (k, l)
+        Categories on the same window, with k ≥ n and l ≥ m.
+    """
     rows, columns = (np.arange(fine) * coarse // fine for coarse, fine in zip(cells.shape, truth.shape, strict=True))
     return 100.0 * float(np.mean(cells[np.ix_(rows, columns)] != truth))

@@ -37,7 +37,7 @@ _FIRST, _STAGES = 8, 3
 _BEYOND = 0.01
 """Share of the numbers beyond each end of the colours: without it one outlier would take all colours."""
 _FAR, _LARGEST = 1e6, 1e38
-"""Bound of windows; largest number in single precision."""
+"""Bound on the coordinates of a window; bound on the drawn numbers, within the range of single precision."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,32 +58,32 @@ class _Chart(Part[Any]):
         return self.axes[0].of(self.host), self.axes[1].of(self.host)
 
     def adjustments(self, before: Self) -> Values:
-        """Return an empty window after a change of an axis, which shows the whole chart."""
+        """Return an empty window, which shows the whole chart, if an axis has changed; otherwise nothing."""
         return {} if self.axes == before.axes else {"chart_window": ""}
 
     @property
     def number(self) -> catalogue.Number:
-        """The current number."""
+        """The number that the chart shows."""
         source, number = self.numbers[self.host.chart]
         return source.computation.number(number)
 
     @cached_property
     def key(self) -> Cells:
-        """Cache key of the cells, which do not depend on the values of both sides in this state."""
+        """Cache key of the cells.  They do not depend on the values that the parameters of both sides have here."""
         x, y = self.axes
         state = y.put(x.put(bare_state(self.host), x.ends[0]), y.ends[0])
         return Cells(*self.numbers[self.host.chart], x, y, state, level(self.work.level_name))
 
     @cached_property
     def window(self) -> Window:
-        """The visible window."""
+        """The visible window: the chosen one, or else that of a displayed stored sweep, or else the whole chart."""
         x, y = self.axes
         whole = (x.ends[0], y.ends[0]), (x.ends[1], y.ends[1])
         return window_of(normalized_window(self.host.chart_window), STORED.get(self.key, ((), whole))[1])
 
     @cached_property
     def _rows(self) -> tuple[Array, int, Window] | None:
-        """Rows (n, 3, m) of cells, the number of rows that are still coarse, and the window of the cells."""
+        """Rows (n, 3, m) of cells, the number of rows still coarse, and the window of the cells; None until known."""
         if self.key in STORED:
             cells, window = STORED[self.key]
             return cells, 0, window
@@ -102,7 +102,10 @@ class _Chart(Part[Any]):
 
     @cached_property
     def cells(self) -> CellGrid | None:
-        """The cells; the ends of their colours are one turn, the range without outliers, or None for categories."""
+        """The cells; None until known.
+
+        The ends of their colours are one turn, or the range without outliers; None for categories, and without numbers.
+        """
         if self._rows is None:
             return None
         values, _, ((x0, y0), (x1, y1)) = self._rows
@@ -117,18 +120,18 @@ class _Chart(Part[Any]):
         return CellGrid(values, (x0, x1), (y0, y1), ends)
 
     def here(self) -> Positions:
-        """Return the point of the state if the window contains it."""
+        """Return the point of the state, or an empty list if the window does not contain it."""
         return crop([self.point], self.window)
 
     def choose(self, x: float, y: float) -> Values:
-        """Return the parameters at a point.  Raises `ModelError` if no number is possible there."""
+        """Return the values that a click at a point sets.  Raises `ModelError` if the number is not defined there."""
         across, up = self.axes
         state = up.put(across.put(self.host, x), y)
         self.key.source.values(state)
         return {one.name: getattr(state, one.name) for one in (across, up)}
 
     def box_window(self, corners: Corners) -> Values:
-        """Return the window of a box."""
+        """Return the window of a box, clipped to the ranges of the sides; nothing for a box without area."""
         (x0, x1), (y0, y1) = (one.ends for one in self.axes)
         return box_window(corners, ((x0, y0), (x1, y1)), "chart_window")
 
@@ -141,7 +144,7 @@ class _Chart(Part[Any]):
         return f"{number.symbol} = {said}{unit}{'' if outcome is Outcome.OK else f' ({outcome.words})'}."
 
     def about(self, x: float, y: float) -> str:
-        """Return a line about the cell at a point."""
+        """Return the tooltip of the cell at a point; empty until the cells are known."""
         if self._rows is None:
             return ""
         cells, _, window = self._rows
@@ -176,7 +179,15 @@ def _sides(charts: Charts, state: type[Any]) -> Mapping[str, Side]:
 
 
 def with_chart(state: type[Any], charts: Charts) -> type[Any]:
-    """Return a class of states with the additional choices of a chart, which do not change other results."""
+    """Return a class of states with the additional choices of a chart, which do not change other results.
+
+    Parameters
+    ----------
+    state : type
+        Class of the states without the chart.
+    charts : Charts
+        The numbers and the initial sides.
+    """
     numbers, sides = charts.numbers, _sides(charts, state)
     x, y = (next(symbol for symbol, side in sides.items() if one in (symbol, side.name)) for one in charts.over)
     along = "Parameter along this axis."

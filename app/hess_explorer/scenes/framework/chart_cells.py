@@ -29,10 +29,10 @@ class Side:
         Symbol on the axis.
     name : str
         Name of the parameter.
-    ends : tuple of float
+    ends : (float, float)
         Default range.
     axis : int or None
-        Index of the coordinate of a point; None for a number.
+        Index of the coordinate, if the parameter is a list of points; None if it is a number.
     """
 
     symbol: str
@@ -56,7 +56,21 @@ class Side:
 
 @dataclass(frozen=True)
 class Cells:
-    """Cache key of the cells of a chart: a number over two parameters, with all others from a state."""
+    """Cache key of the cells of a chart: a number over two parameters, with all others from a state.
+
+    Attributes
+    ----------
+    source : ChartSource
+        The computation.
+    number : str
+        Name of the number.
+    x, y : Side
+        The horizontal and the vertical side.
+    state : State
+        A state from `bare_state`, with both sides at their lower ends.
+    level : Level
+        Level of accuracy.
+    """
 
     source: ChartSource
     number: str
@@ -66,7 +80,7 @@ class Cells:
     level: Level
 
     def arguments(self, x: float, y: float) -> Mapping[str, Any]:
-        """Return the arguments at a point.  Raises `ModelError`."""
+        """Return the arguments of the computation at a point.  Raises `ModelError`."""
         return self.source.values(self.y.put(self.x.put(self.state, x), y))
 
 
@@ -79,7 +93,24 @@ def _evaluate_cells(source: ChartSource, number: str, chosen: Level, cells: tupl
 
 
 def chart_row(cells: Cells, window: Window, count: int, row: int) -> Array:
-    """Return values, estimated errors and status (3, count) of a row of `count` × `count` cells."""
+    """Return the values, estimated errors and status (3, count) of one row of `count` × `count` cells.
+
+    Parameters
+    ----------
+    cells : Cells
+        The chart.
+    window : Window
+        Lower left and upper right corner.
+    count : int
+        Number of cells along a side.
+    row : int
+        Index of the row, 0 for the lowest.
+
+    Returns
+    -------
+    array (3, count)
+        Values, NaN where there is none; estimated errors, NaN without an estimate; status as `Outcome`.
+    """
     (x0, y0), (x1, y1) = window
     y = float(centres(y0, y1, count)[row])
     found, known = np.full((3, count), np.nan), dict[int, tuple[float, ...]]()
@@ -96,4 +127,4 @@ def chart_row(cells: Cells, window: Window, count: int, row: int) -> Array:
 
 
 STORED: dict[Cells, tuple[Array, Window]] = {}
-"""Values, errors and status (n, 3, m) of displayed stored sweeps, and their windows."""
+"""Values, errors and status (n, 3, m) of displayed stored sweeps, and their windows, by the key of the cells."""

@@ -16,7 +16,7 @@ from hess_mechanics.numerics.accuracy import DRAFT
 
 Arguments = Mapping[str, float]
 Numbers = Mapping[str, tuple["ChartSource", str]]
-"""Computation and name of each number, by the option of the menu."""
+"""Source and name of each number, by the option of the menu."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,9 +28,9 @@ class ChartSource:
     key : str
         Key of the computation.
     arguments : callable
-        `arguments(state)` returns the arguments that differ from the defaults; it raises `ModelError`.
+        `arguments(state)` returns the arguments that differ from the defaults; it may raise `ModelError`.
     computations : mapping of str to Computation
-        The computations by key; empty for the catalogue.
+        The computations by key; empty for those of the catalogue.
     """
 
     key: str
@@ -43,7 +43,7 @@ class ChartSource:
         return (self.computations or catalogue.catalogue())[self.key]
 
     def values(self, state: Any) -> Mapping[str, Any]:
-        """Return all arguments of a state, clamped to their bounds.  Raises `ModelError`."""
+        """Return all arguments in a state.  Raises `ModelError`, also if an argument is out of range."""
         return self.computation.values(self.arguments(state))
 
 
@@ -55,10 +55,11 @@ class Charts:
     ----------
     sources : tuple of ChartSource
         The computations.
-    over : tuple of str
-        The initial sides: parameters by name, coordinates by symbol.
-    point : tuple
-        A parameter of points and the symbols of their coordinates, which are possible sides.
+    over : (str, str)
+        The initial horizontal and vertical side: names of parameters, or symbols of parameters or coordinates.
+    point : (str, (str, str))
+        Name of a parameter with points, and the symbols of their coordinates, which are possible sides; by default
+        none.
     """
 
     sources: tuple[ChartSource, ...]
@@ -67,7 +68,7 @@ class Charts:
 
     @property
     def numbers(self) -> Numbers:
-        """The numbers of all computations by name; the last one has precedence."""
+        """The numbers of all computations by name; of numbers with the same name, the last."""
         return {name: (one, name) for one in self.sources for name in one.computation.numbers}
 
     def load(self, state: Any) -> None:
@@ -78,7 +79,7 @@ class Charts:
 
 
 def torus_charts(torus: Callable[[Any], tuple[float, float, float]]) -> tuple[ChartSource, ...]:
-    """Return the charted computations of a Suslov–Hess torus; `torus(state)` returns (a, h, f)."""
+    """Return the charted computations of a Suslov–Hess torus; `torus(state)` returns (a, h, f) in units b = 1."""
     return (
         ChartSource("circle-map", lambda s: dict(zip("ahf", torus(s), strict=True))),
         ChartSource("critical-a", lambda s: dict(zip("hf", torus(s)[1:], strict=True))),
@@ -101,16 +102,16 @@ def motion_charts(
     time: Callable[[Any], float] | None = None,
     computations: Mapping[str, Computation] | None = None,
 ) -> tuple[ChartSource, ...]:
-    """Return MEGNO, exponents and crossings of the chosen motion of a system.
+    """Return the chart sources of MEGNO, Lyapunov exponents and crossings of the current motion of a system.
 
     Parameters
     ----------
     system : System
-        The system.
+        The system; the property `body` of the scene's states is a body of it.
     start : callable
-        `start(state)` returns the initial state (d,); it raises `ModelError`.
+        `start(state)` returns the initial state (d,); it may raise `ModelError`.
     time : callable, optional
-        `time(state)` returns the averaging time.
+        `time(state)` returns the averaging time of the exponents; by default that of the computations.
     computations : mapping of str to Computation, optional
         The computations by key; by default the catalogue.
     """

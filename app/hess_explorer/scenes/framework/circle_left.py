@@ -22,7 +22,7 @@ CIRCLES = (
     Sign("limit circle for t → −∞", "line", f"border-top: 3px dashed {theme.UNSTABLE}"),
     Sign("fixed points Γ = ±1", "dot", f"background: {theme.MUTED}"),
 )
-"""Entries of the legend."""
+"""Legend entries of the sphere."""
 
 PHI = replace(CIRCLE_PHASE, label="Phase φ of the chosen orbit", bounds=ONE_TURN)
 DIGITS = Parameter(
@@ -33,7 +33,7 @@ DIGITS = Parameter(
     (2.0, 8.0),
     0.05,
     (2.0, 10.0),
-    "Distance of the start of the chosen orbit from Nᵘ: δ = 10^−digits of |ω|.",
+    "Distance of the start of the chosen orbit from Nᵘ, in units of |ω|: δ = 10^−digits.",
 )
 
 S = TypeVar("S")
@@ -46,7 +46,21 @@ def sphere(
     joined: Callable[[S], float],
     signs: tuple[Sign, ...] = (),
 ) -> Sphere[S]:
-    """Return the sphere with the orbit, the axis ξ and two circles about it: left(state) = θ⁻, joined(state) = Γ."""
+    """Return the sphere with the orbit, the axis ξ and the limit circles of γ about it.
+
+    Parameters
+    ----------
+    caption : callable
+        `caption(state)` returns the caption.
+    xi : callable
+        `xi(state)` returns the unit vector ξ, (3,).
+    left : callable
+        `left(state)` returns the angle θ⁻ between γ and ξ for t → −∞, in radians.
+    joined : callable
+        `joined(state)` returns Γ = (ξ, γ) for t → ∞.
+    signs : tuple of Sign
+        Additional legend entries.
+    """
     return Sphere(
         caption=caption,
         looks={"orbit": "orbit"},
@@ -63,12 +77,18 @@ def Gamma_picture(
     orbit: Callable[[Any], tuple[Array, Array]],
     *others: Layer[Any],
 ) -> Plot[Any]:
-    """Return the graph of Γ over the time `span`, with levels.
+    """Return the graph of Γ = (ξ, γ) over the time span of the state, with levels.
 
     Parameters
     ----------
+    caption : callable
+        `caption(state)` returns the caption.
+    limits : callable
+        `limits(state)` returns the levels of Γ.
     orbit : callable
         `orbit(state)` returns the times (n,) and Γ (n,) of the chosen orbit.
+    *others : Layer
+        Further layers, under that of the chosen orbit.
     """
     return Plot(
         name="Gamma",

@@ -33,7 +33,7 @@ _TOGETHER = 60
 _PARTS = 16
 """Largest number of pieces of a branch in each direction."""
 _STEP = 0.02
-"""Largest step, as a share of the range: chords are then half a pixel off, as directions differ by 0.3."""
+"""Longest step, in units of the coordinates and of the range: its chord is half a pixel off, at a turn of 0.3 rad."""
 _LEAST_ADVANCE = 1e-4
 """Least advance of a piece, as a share of the range or in a coordinate: shorter pieces show no progress."""
 _NEAR = 12.0
@@ -43,7 +43,7 @@ _MOST_LISTED = 8
 
 
 _Nearest = tuple[float, mechanics.Branch, int, float, int]
-"""Distance in pixels of a point of a branch, the branch, its segment, the position there, its point on the orbit."""
+"""Distance in pixels from a branch, the branch, indices of a segment, position on it (0 to 1), index on the orbit."""
 
 
 H_co = TypeVar("H_co", bound=HasSection, covariant=True)
@@ -75,12 +75,12 @@ class Continuation(Part[H_co]):
 
     @cached_property
     def _target(self) -> ClosedOrbit | NotFound | None:
-        """The orbit to continue, or the reason why there is none; None until known."""
+        """The orbit to continue, or the reason why there is none; None until known, and if no branch is requested."""
         return None if self.branch_start is None else self.work.need(self.branch_start.search, preview=None)
 
     @property
     def closed_orbit(self) -> ClosedOrbit | None:
-        """The orbit to continue; None if there is none."""
+        """The orbit to continue; None until known, and if there is none."""
         return self._target if isinstance(self._target, ClosedOrbit) else None
 
     @cached_property
@@ -111,7 +111,7 @@ class Continuation(Part[H_co]):
 
     @property
     def branches(self) -> list[mechanics.Branch]:
-        """The known pieces of the branch."""
+        """The known pieces of the branch; empty until the first is known."""
         return self._pieces[0]
 
     # ---- mouse events -------------------------------------------------------------------------------------------
@@ -139,7 +139,10 @@ class Continuation(Part[H_co]):
         return near if near is not None and near[0] <= _NEAR else None
 
     def orbit_at(self, x: float, y: float) -> tuple[float, Point, int] | None:
-        """Return parameter, point and period of the branch's orbit at (x, y); None away from the branch."""
+        """Return the parameter, the point nearest to (x, y) and the period of the branch's orbit there.
+
+        None if the branch is more than 12 pixels away.
+        """
         near = self._nearest(x, y)
         if near is None or self.branch_start is None:
             return None
@@ -164,7 +167,7 @@ class Continuation(Part[H_co]):
         )
 
     def tooltip(self, x: float, y: float) -> str:
-        """Return a tooltip on the bifurcation or the orbit of the branch at (x, y)."""
+        """Return a tooltip on the bifurcation or the orbit of the branch at (x, y); empty away from the branch."""
         for one in bifurcations(self.branches):
             if np.hypot(*self._pixels(np.full(len(one.points), one.value), one.points, x, y).T).min() <= _NEAR:
                 return self._bifurcation_text(one)
@@ -201,14 +204,14 @@ class Continuation(Part[H_co]):
         )
 
     def quantities(self) -> Iterator[str]:
-        """Yield the bifurcations."""
+        """Yield the first eight bifurcations, and the number of the others."""
         found = bifurcations(self.branches) if self.has_result("_pieces") else []
         yield from map(self._bifurcation_text, found[:_MOST_LISTED])
         if len(found) > _MOST_LISTED:
             yield f"and {len(found) - _MOST_LISTED} more bifurcations of the branch"
 
     def status(self) -> Iterator[str]:
-        """Yield the size and error of the branch."""
+        """Yield the number of points of the branch and its largest error."""
         if self.has_result("_pieces") and self.branches:
             yield (
                 f"branch {sum(len(one.values) for one in self.branches)} points, error "
@@ -216,7 +219,7 @@ class Continuation(Part[H_co]):
             )
 
     def notes(self) -> Iterator[str]:
-        """Yield the reasons why there is no branch, or why it ends inside the range."""
+        """Yield the reasons why there is no branch, or why it ends or is not computed further inside the range."""
         if not self.has_result("_pieces"):
             return
         if isinstance(self._target, NotFound):
@@ -235,7 +238,7 @@ class Continuation(Part[H_co]):
 
 
 def _part(begin: BranchStart, upwards: bool, k: int) -> mechanics.Branch | NotFound:
-    """Return piece k of the branch, towards larger (`upwards`) or smaller values of the parameter."""
+    """Return piece k of the branch, starting to larger (`upwards`) or smaller values, or the reason why it is missing."""
     found = begin.search.get()
     if isinstance(found, NotFound):
         return found

@@ -38,7 +38,7 @@ class Family:
 
         Parameters
         ----------
-        state : Sectioned
+        state : HasSection
             The state.
         name, symbol : str
             Name and symbol of the parameter.
@@ -58,20 +58,20 @@ class Family:
 
 @dataclass(frozen=True)
 class BranchStart:
-    """Start of a branch.
+    """Start of a branch of periodic orbits.
 
     Attributes
     ----------
     family : Family
         The section over the parameter.
     value : float
-        Value of the parameter.
+        Value of the parameter at the start.
     point : tuple of float
         Point in the section near the periodic orbit.
     period : int or None
-        Period of the orbit; None for any.
-    ends : tuple of float
-        Range of the parameter.
+        Period of the orbit; None for any up to 12.
+    ends : (float, float)
+        Range of the parameter, which contains `value`.
     """
 
     family: Family

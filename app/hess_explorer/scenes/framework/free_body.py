@@ -26,9 +26,9 @@ I23 = replace(
 
 
 def free_body(k: float, I22: float, I13: float, I23: float) -> SuslovBody:
-    """Return the body, with error messages that name the controls.
+    """Return the body with I11 = I22 + k|k| (I13² + I23²)/I22, with error messages that name the controls.
 
-    Raises `NotPositiveDefinite` if I11 is not positive, `InvalidParameter` if I13 = I23 = 0.
+    Raises `InvalidParameter` if I13 = I23 = 0, or I11 is not positive.
     """
     if I13 == I23 == 0.0:
         raise InvalidParameter(
@@ -43,7 +43,7 @@ def free_body(k: float, I22: float, I13: float, I23: float) -> SuslovBody:
 
 
 def limits_of_k(I22: float, I13: float, I23: float) -> Mapping[str, Slider]:
-    """Return the range of the slider of k, with I11 > 0 at its lower end."""
+    """Return the range of the slider of k: from −2, or the least round value with I11 > 0, to 7."""
     J = math.hypot(I13, I23)
     # The slider ends at −2, so −3 is low enough; −I₂₂/J may overflow.
     lowest = max(-3.0, -I22 / J) if J > 0.0 else -3.0
@@ -51,6 +51,6 @@ def limits_of_k(I22: float, I13: float, I23: float) -> Mapping[str, Slider]:
 
 
 def derived_quantities(k: float, body: SuslovBody) -> Iterator[str]:
-    """Yield I11 and k²."""
+    """Yield I11 and k|k|, which is called k² and negative for k < 0."""
     yield f"I₁₁ = {digits(body.I11)}"
     yield f"k² = {digits(k * abs(k))}"

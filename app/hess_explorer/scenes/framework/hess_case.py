@@ -57,7 +57,7 @@ CYCLES_MERGE: Answer[Any] = Answer(
     "The two loops have just met: here they appear or vanish.",
     lambda s: s.map is not None and s.map.kind == "parabolic" and bool(s.map.fixed_points),
 )
-"""The sentence on a state with one limit cycle, not on the identity, whose map is parabolic, too."""
+"""The sentence on a state with one limit cycle.  The identity is parabolic, too, but has no isolated fixed points."""
 
 UNSURE = 1e-9
 NEAR_UNSTABLE_CYCLE = "This motion starts next to the unstable cycle: there round-off grows even on the torus."
@@ -88,14 +88,26 @@ RIS = {"I1": 1.0, "I2": 1.5, "I3": 2.0, "m": math.sqrt(0.5)}
 
 
 def reduced_motion(hess: HessBody, turning_points: TurningPoints, phi0: float, length: float) -> Motion:
-    """Return the motion on a torus from phase φ0, over the time `length` in units b = 1."""
+    """Return the reduced motion on a torus from phase φ0 at the lowest n3, in units b = 1.
+
+    Parameters
+    ----------
+    hess : HessBody
+        The body.
+    turning_points : TurningPoints
+        Turning points of n3 on the torus.
+    phi0 : float
+        Phase of the start, in radians.
+    length : float
+        Duration, in units b = 1.
+    """
     start = tuple(turning_points.state_at_lower_turn(phi0).tolist())
     weights = pixels_per_unit(math.sqrt(2.0 * (turning_points.h + 1.0)))
     return Motion(SYSTEM, start, (hess.a, 1.0), length, weights, 1.0 / hess.frequency_unit)
 
 
 def possible_f(h: float, f: float, notes: list[str]) -> float:
-    """Clamp f, in units b = 1, to the region of this h; append a note for a change."""
+    """Return f clamped to |f| ≤ f_max(h), in units b = 1; append a note for a change."""
     largest = f_max(h)
     if abs(f) <= largest:
         return f
@@ -104,7 +116,7 @@ def possible_f(h: float, f: float, notes: list[str]) -> float:
 
 
 def possible_I23(I22: float, I23: float, notes: list[str]) -> float:
-    """Clamp I23 to |a| ≤ 100; append a note for a change."""
+    """Return I23 clamped to |a| = |I23/I22| ≤ 100; append a note for a change."""
     bound = _MAX_A * I22
     if abs(I23) <= bound:
         return I23
@@ -114,7 +126,10 @@ def possible_I23(I22: float, I23: float, notes: list[str]) -> float:
 
 
 def map_or_none(work: Work, a: float, h: float, f: float, level: Level) -> CircleMap | None:
-    """Return the circle map of a torus (a, h, f) in units b = 1; None on the separatrix."""
+    """Return the circle map of a torus (a, h, f) in units b = 1; None on the separatrix.
+
+    Raises `OutsideRegion` if no motion has this h and f.
+    """
     try:
         return work.need(Task(circle_map, a, h, f, level))
     except Separatrix:
@@ -124,7 +139,26 @@ def map_or_none(work: Work, a: float, h: float, f: float, level: Level) -> Circl
 def limit_cycles(
     work: Work, hess: HessBody, theta: CircleMap | None, level: Level, half_width: float
 ) -> tuple[Track, Track] | None:
-    """Return the stable and the unstable limit cycle on a torus, see `torus.cycles`; None without limit cycles."""
+    """Return the stable and the unstable limit cycle on a torus, see `torus.cycles`.
+
+    Parameters
+    ----------
+    work : Work
+        Computation of the state.
+    hess : HessBody
+        The body.
+    theta : CircleMap or None
+        Circle map of the torus; None on the separatrix.
+    level : Level
+        Level of accuracy.
+    half_width : float
+        Largest |ω| of the plot, in rad/T.
+
+    Returns
+    -------
+    (Track, Track) or None
+        Both cycles; None unless the map is hyperbolic.
+    """
     if theta is None or theta.kind != "hyperbolic":
         return None
     return work.need(Task(cycles, hess, theta.h, theta.f, theta.fixed_points[0], level, half_width))
@@ -132,7 +166,7 @@ def limit_cycles(
 
 @dataclass(frozen=True)
 class ProvedStatement:
-    """The proved statement on a torus.
+    """The result of a proof on a torus: a statement, or why there is none.
 
     Attributes
     ----------
@@ -147,7 +181,20 @@ class ProvedStatement:
 
 
 def proved_statement(I22: float, I23: float, h: float, f: float) -> ProvedStatement:
-    """Prove a statement on a torus; each double stands for the decimal number that its box shows."""
+    """Prove the number of limit cycles on a torus; each double stands for the decimal number that its control shows.
+
+    Parameters
+    ----------
+    I22, I23 : float
+        Moment and product of inertia, in the same unit.
+    h, f : float
+        Energy and area integral, in units b = 1.
+
+    Returns
+    -------
+    ProvedStatement
+        The statement.  If the proof fails or is undecided, both sentences say so.
+    """
     try:
         found = prove(exact("I23", I23) / exact("I22", I22), h, f, _MOST_BITS, _MOST_WORK)
     except ModelError as error:
@@ -187,14 +234,14 @@ class HeavyHess:
 
     Attributes
     ----------
-    moments : tuple of float
-        Principal moments of inertia.
+    moments : (float, float, float)
+        Principal moments of inertia I1, I2 and I3.
     m : float
-        μ|r|, weight times the distance of the centre of mass.
+        μ|r|, weight times the distance of the centre of mass, of either sign.
     h : float
-        Energy.
+        Energy, in the unit of m.
     f : float
-        Area integral.
+        Area integral (M, γ).
     """
 
     moments: tuple[float, float, float]
@@ -204,19 +251,22 @@ class HeavyHess:
 
     @property
     def _least_weight(self) -> float:
-        """The least μ|r| at which h/(μ|r|) is not too large for the computation."""
+        """The least |μ||r| at which h/(|μ||r|) is not too large for the computation."""
         return max(1e-3, 1e-9 * abs(self.h))
 
     def _largest_f(self, h: float) -> float:
         return largest_area_integral(self.m, self.moments[1], h) * _INSIDE
 
     def corrections(self, notes: list[str]) -> Values:
-        """Clamp h to values above its minimum and f to the region of this h; append a note for each change."""
+        """Clamp h to values above its minimum and f to the region of this h; append a note for each change.
+
+        Return nothing if |μ||r| is too small for a Hess case.
+        """
         if abs(self.m) < self._least_weight:
             return {}
         h, f = max(self.h, -abs(self.m) * _INSIDE), self.f
         if h > self.h:
-            notes.append(f"The energy must exceed −μ|r|: h was set to {digits(h)}.")
+            notes.append(f"The energy must exceed −|μ||r|: h was set to {digits(h)}.")
         largest = self._largest_f(h)
         if abs(f) > largest:
             f = math.copysign(largest, f)
@@ -227,7 +277,10 @@ class HeavyHess:
         return {"h": h, "f": f}
 
     def limits(self) -> Mapping[str, Slider]:
-        """Return slider ranges of h and f over the possible region, and of the moments in their order."""
+        """Return slider ranges of h and f over the possible region, and of the moments in their order.
+
+        Without a possible motion, return only those of the moments.
+        """
         m, moments = abs(self.m), limits_of_moments(*self.moments)
         if m < self._least_weight or self.h <= -m:
             return moments
@@ -239,33 +292,37 @@ class HeavyHess:
     def bridge(self) -> Bridge:
         """The heavy body and the Suslov body with the same motions.
 
-        Raises `NoField` without weight, and `InvalidParameter` if there is no such body.
+        Raises `NoField` if |μ||r| is too small, and `InvalidParameter` if no body has these moments.
         """
         if abs(self.m) < self._least_weight:
             raise NoField(
                 f"μ|r| = {digits(self.m)}: without weight there is no Hess case. Choose μ|r| of at least "
-                f"{digits(self._least_weight)}."
+                f"{digits(self._least_weight)}, or at most −{digits(self._least_weight)}."
             )
         return Bridge.of_heavy(HeavyBody.hess(self.moments, self.m))
 
     @cached_property
     def turning_points(self) -> TurningPoints:
-        """The turning points of n3, with h and f in units b = 1.  Raises `Separatrix`, `OutsideRegion`."""
+        """The turning points of n3, with h and f in units b = 1.
+
+        Raises `Separatrix`, `OutsideRegion` and the errors of `bridge`.
+        """
         try:
             return turning_points(*self.bridge.in_units_of_b(self.h, self.f))
         except Separatrix:
             raise Separatrix(
-                "h = μ|r|, f = 0 is the separatrix: n₃ has no period. Choose another h, or a nonzero f."
+                "h = |μ||r|, f = 0 is the separatrix: n₃ has no period. Choose another h, or a nonzero f."
             ) from None
 
 
 def torus_swarm(torus: Callable[[Any], tuple[HessBody, float, float, float, CircleMap | None]]) -> Swarm[Any]:
-    """Return the swarm on a torus: starts at all phases, each at the lowest n3.
+    """Return the swarm on a torus: starts at all phases, each at the lowest n3, or at n3 = 1 on the separatrix.
 
     Parameters
     ----------
     torus : callable
-        `torus(state)` returns the body, h and f in units b = 1, φ0, and the circle map, None on the separatrix.
+        `torus(state)` returns the body, h and f in units b = 1, φ0 in radians, and the circle map or, on the
+        separatrix, None.
     """
 
     def starts(state: Any, angles: Array) -> Array:

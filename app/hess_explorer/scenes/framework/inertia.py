@@ -1,4 +1,4 @@
-"""Sliders of the principal moments of a heavy body near the Hess case."""
+"""Sliders of the principal moments of a heavy body in or near the Hess case."""
 
 from __future__ import annotations
 
@@ -11,7 +11,10 @@ _ENDS, _STEP = FIRST.softbounds, FIRST.step
 
 
 def limits_of_moments(I1: float, I2: float, I3: float) -> Mapping[str, Slider]:
-    """Return slider ranges that keep I₂ between the other moments; a typed value may change their order."""
+    """Return slider ranges that keep I₂ between the other moments; typed values may lie outside.
+
+    Empty if I₂ is not between them, or they differ by at most two steps: the sliders then have their usual ranges.
+    """
     low, high = sorted((I1, I3))
     if not (low <= I2 <= high and high - low > 2.0 * _STEP):
         return {}

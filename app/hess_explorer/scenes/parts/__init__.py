@@ -1,1 +1,1 @@
-"""Parts of scenes, one per file; no part imports another."""
+"""Parts of scenes.  The subpackages do not import one another, except that `sections` imports `orbits`."""

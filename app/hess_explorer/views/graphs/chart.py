@@ -27,7 +27,7 @@ def lg(distance: Array) -> Array:
 
 
 def lg_axis(largest: float) -> Range:
-    """Return an axis from `LG_OF_0` to lg `largest`, rounded up to halves."""
+    """Return an axis from `LG_OF_0` to the decimal logarithm of `largest`, rounded up to a multiple of ½."""
     return LG_OF_0, math.ceil(2.0 * math.log10(largest)) / 2.0
 
 
@@ -37,5 +37,5 @@ def clip(values: Array, floor: float) -> Array:
 
 
 def limit(height: Callable[[S], float]) -> Layer[S]:
-    """Return a dotted line across the picture."""
+    """Return the layer of a dotted horizontal line across the picture, at `height(state)`."""
     return line("limit", lambda s: ((-1e30, 1e30), (height(s),) * 2), color=theme.MUTED, dash="dotted")

@@ -25,7 +25,7 @@ _LEAST = 2.5
 
 def caption(motion: Conformal) -> Caption:
     """Return the caption of a motion in both times."""
-    turned = {0: "never", 1: "once"}.get(motion.turns, f"{motion.turns} times")
+    turned = {0: "0 times", 1: "once"}.get(motion.turns, f"{motion.turns} times")
     return Caption(
         "The motion is Hamiltonian in τ.",
         f"ẋ = γ₃{{x, E}} within {digits(motion.residual, 1)}; τ reverses {turned} on the equator.",
@@ -33,7 +33,7 @@ def caption(motion: Conformal) -> Caption:
 
 
 def _bracket(motion_of: Transform[S], i: int) -> Callable[[S, Axes], list[Array]]:
-    """Return the graph of a Poisson bracket, cut where it is infinite, on the equator."""
+    """Return the parts of the graph of a Poisson bracket within the frame: on the equator it is infinite."""
 
     def graph(state: S, axes: Axes) -> list[Array]:
         motion = motion_of(state)
@@ -47,7 +47,17 @@ def _bracket(motion_of: Transform[S], i: int) -> Callable[[S, Axes], list[Array]
 
 
 def picture(motion_of: Transform[S], reason: Callable[[S], str], span: Callable[[S], float]) -> Plot[S]:
-    """Return the plot of τ, {ω1, γ3} and {ω2, γ3} against t, or of the reason for their absence."""
+    """Return the plot of τ, {ω1, γ3} and {ω2, γ3} against t.
+
+    Parameters
+    ----------
+    motion_of : callable
+        `motion_of(state)` returns the motion, or None; the plot is then empty.
+    reason : callable
+        `reason(state)` returns the caption of an empty plot.
+    span : callable
+        `span(state)` returns the last time on the horizontal axis.
+    """
 
     def state_caption(state: S) -> Caption:
         motion = motion_of(state)

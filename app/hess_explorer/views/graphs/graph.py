@@ -37,7 +37,7 @@ def time_graph(
 
 
 def settled_range(curves: Sequence[Array]) -> Range:
-    """Return an axis that contains 0 and curves (n,) over a long time, except their first tenth."""
+    """Return an axis that contains, with a margin, 0 and the last nine tenths of each curve (n,) over a long time."""
     settled = np.concatenate([y[len(y) // 10 :] for y in curves])
     low, high = float(settled.min()), float(settled.max())
     room = 0.08 * max(1e-6, high - low)
@@ -57,13 +57,16 @@ def with_margin(values: Array, share: float, least: float = 0.0) -> Range:
 
 
 def thin(x: Array, y: Array) -> tuple[Array, Array]:
-    """Return a curve reduced to the number of points that a picture resolves."""
+    """Return x and y of a curve (n,), reduced to the 600 points that a picture resolves."""
     kept = np.unique(np.linspace(0, len(x) - 1, _POINTS).astype(int))
     return x[kept], y[kept]
 
 
 def branches(x: Array, y: Array, period: float) -> list[Array]:
-    """Return the parts of a curve over an angle, cut at ±period/2; each part reaches the edge."""
+    """Return the parts (n, 2) of a curve over an angle x in [−period/2, period/2], cut where x jumps across ±period/2.
+
+    The parts are extended to these edges.
+    """
     x, y = np.asarray(x, float), np.asarray(y, float)
     cuts = np.flatnonzero(np.abs(np.diff(x)) > period / 2)
     edges = np.copysign(period / 2, x[cuts])
@@ -76,7 +79,10 @@ def branches(x: Array, y: Array, period: float) -> list[Array]:
 
 
 def pieces(curve: Array, mask: Mask, jump: float = math.inf) -> list[Array]:
-    """Return the parts of a curve (n, 2) where `mask` (n,) is true, also cut at jumps in height."""
+    """Return the parts (k, 2) of a curve (n, 2) where `mask` (n,) is true, also cut where the height jumps.
+
+    A jump is a change by more than `jump` from one point to the next.  Parts of a single point are omitted.
+    """
     cuts = np.flatnonzero((mask[1:] != mask[:-1]) | (np.abs(np.diff(curve[:, 1])) > jump)) + 1
     return [
         part

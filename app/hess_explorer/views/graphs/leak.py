@@ -16,7 +16,15 @@ S = TypeVar("S")
 
 
 def distances(leaks: Callable[[S], Mapping[str, Leak]], distance: Callable[[Leak], Array]) -> Layers[S]:
-    """Return the curves lg distance over time of the orbits "own" (chosen accuracy) and "reference"."""
+    """Return the layers of the decimal logarithm of the distance over time, for two orbits.
+
+    Parameters
+    ----------
+    leaks : callable
+        `leaks(state)` returns the orbits "own", at the chosen accuracy, and "reference".
+    distance : callable
+        `distance(leak)` returns the distances (n,) along an orbit.
+    """
 
     def curve(state: S, name: str) -> tuple[Array, Array]:
         leak = leaks(state)[name]

@@ -18,7 +18,7 @@ _OTHERS = {"DOP853": "square", "LSODA": "triangle"}
 
 
 def curves_of_levels(curve: Callable[[S, str], Curve]) -> Layers[S]:
-    """Return the curve of each level in its colour and dashes; `curve(state, name)` returns its data."""
+    """Return the layers of curves of the levels, in their colours and dashes; `curve(state, name)` returns (x, y)."""
 
     def of(name: str) -> Layer[S]:
         return line(name, lambda s: curve(s, name), color=theme.LEVELS[name], dash=theme.DASHES[name], label=name)
@@ -27,7 +27,7 @@ def curves_of_levels(curve: Callable[[S, str], Curve]) -> Layers[S]:
 
 
 def curves_of_integrals(curve: Callable[[S, int], Curve | None]) -> Layers[S]:
-    """Return the curve of each integral; `curve(state, i)` returns its data, or None if there is no integral i."""
+    """Return the layers of curves of four integrals; `curve(state, i)` returns (x, y), or None without integral i."""
 
     def of(i: int, color: str, dash: str) -> Layer[S]:
         return line(f"integral-{i}", lambda s: curve(s, i), color=color, dash=dash, label=f"integral {i + 1}")
@@ -36,7 +36,15 @@ def curves_of_integrals(curve: Callable[[S, int], Curve | None]) -> Layers[S]:
 
 
 def methods(method: Callable[[S, str], Curve], level: Callable[[S, str], Curve]) -> Layers[S]:
-    """Return the curve of the Taylor method with a point per level, and the curves of SciPy's methods."""
+    """Return the layers: the curve of the Taylor method with a point per level, and the curves of SciPy's methods.
+
+    Parameters
+    ----------
+    method : callable
+        `method(state, name)` returns x and y (n,) of a method: "Taylor", "DOP853" or "LSODA".
+    level : callable
+        `level(state, name)` returns x and y (1,) of a level.
+    """
 
     def at(name: str) -> Layer[S]:
         return points(f"at-{name}", lambda s: level(s, name), color=theme.LEVELS[name], size=12, label=name)

@@ -17,12 +17,15 @@ S = TypeVar("S")
 
 
 def has_periods(periods: Array) -> bool:
-    """Return whether any period of (α, T), (n, 2), is finite."""
+    """Return whether any period T is finite, given rows (α, T), (n, 2)."""
     return bool(np.isfinite(periods[:, 1]).any())
 
 
 def period_axis(periods: Array, here: float = 0.0) -> Range:
-    """Return an axis that contains most finite periods and the current period, if that is finite."""
+    """Return an axis from 0 that contains most finite periods, and the current period `here` if it is finite.
+
+    (0, 20) if no period in the rows (α, T), (n, 2), is finite.
+    """
     finite = periods[np.isfinite(periods[:, 1]), 1]
     if not finite.size:
         return 0.0, 20.0
@@ -30,7 +33,15 @@ def period_axis(periods: Array, here: float = 0.0) -> Range:
 
 
 def layers(periods: Callable[[S], Array], here: Callable[[S], tuple[float, float] | None]) -> Layers[S]:
-    """Return the layers: the graph of T over α from rows (α, T), and a ring at the current orbit."""
+    """Return the layers: the graph of T over α, and a ring at the current orbit; empty if no period is finite.
+
+    Parameters
+    ----------
+    periods : callable
+        `periods(state)` returns rows (α, T), (n, 2).
+    here : callable
+        `here(state)` returns α and T of the current orbit, or None.  The ring of a T beyond the axis is at its end.
+    """
 
     def curve(state: S, axes: Axes) -> list[Array]:
         found = periods(state)

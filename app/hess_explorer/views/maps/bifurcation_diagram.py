@@ -33,7 +33,7 @@ S = TypeVar("S")
 
 
 def window(h: float) -> Axes:
-    """Return the axes for this h: constant over the range of the slider, larger in steps beyond."""
+    """Return the axes (h, f) for this h: constant up to h = 4, the end of the slider, larger in steps beyond."""
     end = 4.0
     while h > end:
         end *= 2.5
@@ -47,14 +47,17 @@ def _with_mirror_image(half: Array) -> list[Array]:
 
 
 def impossible(curve: Array, axes: Axes) -> Regions:
-    """Return the forbidden region outside the curve with this upper branch (n, 2)."""
+    """Return the forbidden region within the axes, given the upper branch (n, 2), f ≥ 0, of the bifurcation curve."""
     top = axes.y[1]
     edge = [[axes.x[0], 0.0], *curve, [axes.x[1], top], [axes.x[0], top]]
     return [[one] for one in _with_mirror_image(np.array(edge))]
 
 
 def _tongue(boundary: Array, axes: Axes) -> Regions:
-    """Return the Arnold tongue to the right of |t| = 2; the forbidden region covers the excess."""
+    """Return the Arnold tongue to the right of |t| = 2; empty without a boundary.
+
+    The forbidden region covers the excess.
+    """
     if len(boundary) == 0:
         return []
     h, f = boundary[0]
@@ -71,18 +74,20 @@ def layers(
     here: Callable[[S], Positions],
     axes: Callable[[S], Axes],
 ) -> Layers[S]:
-    """Return the layers: rotation number ρ, Arnold tongue, forbidden region in grey, a ring at the current torus.
+    """Return the layers: ρ, Arnold tongue, forbidden region in grey, their borders, and a ring at the current torus.
+
+    Diamonds mark the separatrix (1, 0) and the lowest equilibrium (−1, 0).
 
     Parameters
     ----------
     rotation : callable
         `rotation(state)` returns ρ over the window.
     boundary : callable
-        `boundary(state)` returns the curve |t| = 2 with f ≥ 0, (n, 2).
+        `boundary(state)` returns the curve |t| = 2 with f ≥ 0, (n, 2); n = 0 without an Arnold tongue.
     curve : callable
         `curve(state)` returns the upper branch of the bifurcation curve, (n, 2).
     here : callable
-        `here(state)` returns the point of the current torus.
+        `here(state)` returns the point of the current torus, as a list.
     axes : callable
         `axes(state)` returns the axes.
     """
@@ -124,7 +129,10 @@ REACH: Layer[Any] = points(
 
 
 def caption(h: float, f: float, theta: CircleMap | None) -> Caption:
-    """Return the caption on a torus from its circle map, which is None on the separatrix."""
+    """Return the caption of the diagram: the current torus is in the Arnold tongue, on its boundary or outside.
+
+    `theta` is the circle map of the torus; None on the separatrix.
+    """
     zone = (
         "On the separatrix."
         if theta is None
@@ -137,7 +145,10 @@ def caption(h: float, f: float, theta: CircleMap | None) -> Caption:
 
 
 def torus_tooltip(a: float, h: float, f: float) -> str:
-    """Return the tooltip on the torus (a, h, f).  Raises `Separatrix`."""
+    """Return the tooltip on (a, h, f): values of the torus, or that it is impossible.
+
+    Raises `Separatrix` and `WorkLimit`.
+    """
     if h <= -1.0 or abs(f) > f_max(h):
         return f"h = {digits(h)}, f = {digits(f)}: impossible"
     theta = circle_map(a, h, f, DRAFT)

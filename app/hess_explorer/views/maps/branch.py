@@ -20,7 +20,7 @@ _LOOKS = (
     ("neither", theme.SHEET, "solid", "branch of an elliptic or parabolic orbit", "elliptic"),
     ("repels", theme.UNSTABLE, "dashed", "branch of an unstable orbit", "unstable"),
 )
-"""Colour, dash, label and tag of each sign of `sign_of`."""
+"""Sign of `sign_of`, colour, dash, label and tag of each layer."""
 
 
 def _strands(branch: Branch, side: int, sign: str) -> list[Array]:
@@ -41,7 +41,7 @@ def _strands(branch: Branch, side: int, sign: str) -> list[Array]:
                 met = (one.value, float(one.points[j, side]))
                 runs.append([*run, met] if run else [])
                 run = [met] if signs[i] == sign else []
-            # A point of neither sign belongs to the previous part, unless a bifurcation lies between them.
+            # A point with the sign "neither" belongs to the previous part, unless a bifurcation lies between them.
             if signs[i] == sign or (run and signs[i] == "neither"):
                 run.append((float(value), float(orbit[j, side])))
             else:
@@ -64,11 +64,14 @@ class HasBranches(Protocol):
 
     @property
     def turn(self) -> float:
-        """Period of this coordinate, ∞ if it is not an angle."""
+        """Period of the coordinate on the vertical axis; ∞ if it is not an angle."""
 
 
 def layers(of: Callable[[S], HasBranches]) -> Layers[S]:
-    """Return the layers of branches over a parameter: one coordinate of all points, and the bifurcations."""
+    """Return the layers of branches over a parameter: one coordinate of all points, and the bifurcations.
+
+    `of(state)` returns the branches.
+    """
 
     def parts(sign: str) -> Callable[[S, Axes], list[Array]]:
         def drawn(state: S, axes: Axes) -> list[Array]:
@@ -118,7 +121,7 @@ def layers(of: Callable[[S], HasBranches]) -> Layers[S]:
 
 
 def bifurcations(branches: Sequence[Branch]) -> list[Bifurcation]:
-    """Return all bifurcations without duplicates, sorted by the parameter."""
+    """Return all bifurcations, sorted by the parameter; those of one kind that agree within their errors count once."""
     found: list[Bifurcation] = []
     for one in (one for branch in branches for one in branch.bifurcations):
         if not any(

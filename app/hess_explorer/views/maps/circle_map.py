@@ -28,7 +28,7 @@ UNIFORM_HEIGHT = 0.25
 """Height of a uniform density as a share of the frame; 0 is at the bottom."""
 _DENSITY = np.linspace(*ANGLE, 241)
 _BEYOND = 100.0
-"""Density relative to the uniform one that lies beyond the frame."""
+"""Density relative to the uniform one at which the graph is clipped, beyond the frame."""
 
 
 def cobweb(iterates: Array) -> tuple[Array, Array]:
@@ -63,9 +63,24 @@ def picture(
     dot: tuple[str, str] | None = None,
     on_click: Click[S] | None = None,
 ) -> Plot[S]:
-    """Return the plot of a circle map (None on the separatrix), with fixed points or density and a cobweb.
+    """Return the plot of a circle map, with its fixed points or its invariant density, and a cobweb.
 
-    Stable fixed points are filled, unstable ones hollow.
+    Stable fixed points are filled, unstable ones hollow; the fixed point of a parabolic map counts as stable.
+
+    Parameters
+    ----------
+    map : callable
+        `map(state)` returns the circle map; None on the separatrix.
+    iterates : callable
+        `iterates(state)` returns the angles (n,) of the cobweb, or None.
+    caption : callable
+        `caption(state)` returns the caption.
+    title : str
+        Heading.
+    dot : tuple of str, optional
+        The two columns of "orbit" that the moving point follows.
+    on_click : callable, optional
+        `on_click(state, x, y)` returns the parameter values that a click sets.
     """
     here = ("phi", "theta")
     return Plot(
@@ -137,8 +152,8 @@ def caption(theta: CircleMap | None, proof: str = "") -> Caption:
     theta : CircleMap or None
         The circle map; None on the separatrix.
     proof : str
-        The proved statement, if known.  It replaces the kind and the enclosed numbers, or the whole caption if there is
-        no torus.
+        The proved statement, empty until known.  A statement on cycles replaces the kind and the enclosed numbers, one
+        that there is no torus replaces the whole caption, any other text is appended.
     """
     if theta is None:
         return Caption("Separatrix: no return.")

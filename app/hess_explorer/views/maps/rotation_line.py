@@ -43,16 +43,19 @@ class Tori:
     current: float
 
     def curve(self, y: Array, jump: float = math.inf) -> list[Array]:
-        """Return the parts of the graph of y (n,) over the existing tori, cut at jumps."""
+        """Return the parts (k, 2) of the graph of y (n,) over the existing tori, cut at changes above `jump`."""
         return pieces(np.column_stack([self.x, y]), self.values.possible, jump)
 
     @property
     def trace(self) -> Array:
-        """|t|, clipped beyond the frame."""
+        """|t| (n,), clipped beyond the frame; NaN without a torus."""
         return np.minimum(self.values.trace, _DRAWN_TRACE)
 
     def ring(self, y: Array, axes: Axes) -> list[tuple[float, float]]:
-        """Return the point of the current torus on the graph of y, if the frame contains it."""
+        """Return the point of the current torus on the graph of y (n,), as a list; empty outside the frame.
+
+        The height is interpolated between the tori with a finite y.
+        """
         there = np.isfinite(y)
         if not there.any():
             return []
@@ -64,7 +67,17 @@ class Tori:
 def rho_layers(
     tori: Callable[[S], Tori], perturbed: Callable[[S], Array | None], rational: Callable[[S], Sequence[float]]
 ) -> Layers[S]:
-    """Return the layers: ρ along a line, ρ of another family if known, and the torus with the rational ρ."""
+    """Return the layers: ρ along a line, ρ of another family, dotted lines at some ρ, and a ring at the current torus.
+
+    Parameters
+    ----------
+    tori : callable
+        `tori(state)` returns the tori along the line.
+    perturbed : callable
+        `perturbed(state)` returns ρ (n,) of the other family at the same tori; None until known.
+    rational : callable
+        `rational(state)` returns the heights of the dotted lines.
+    """
 
     def other(state: S) -> list[Array]:
         found = perturbed(state)
@@ -79,7 +92,10 @@ def rho_layers(
 
 
 def trace_layers(tori: Callable[[S], Tori]) -> Layers[S]:
-    """Return the layers of |t| along a line; tori with |t| > 2 have limit cycles."""
+    """Return the layers: |t| along a line, a dotted line at 2, and a ring at the current torus.
+
+    Tori with |t| > 2 have limit cycles.
+    """
     return (
         levels("levels", lambda s: [2.0]),
         curves("t", lambda s: tori(s).curve(tori(s).trace), color=theme.ORBIT),

@@ -27,7 +27,17 @@ POLAR_TICKS = ((0.0, "0"), (math.pi / 4, "π/4"), (math.pi / 2, "π/2"), (3 * ma
 def square_plot(
     caption: Callable[[S], Caption], theta_plus: Callable[[S], Array], here: Callable[[S], tuple[float, float]]
 ) -> Plot[S]:
-    """Return the plot of θ⁺ over (φ, θ⁻); a click or drag sets both parameters."""
+    """Return the plot of θ⁺ over (φ, θ⁻); a click or drag sets both parameters.
+
+    Parameters
+    ----------
+    caption : callable
+        `caption(state)` returns the caption.
+    theta_plus : callable
+        `theta_plus(state)` returns θ⁺ (m, n) in radians, rows of equal θ⁻ from 0 to π and columns from φ = −π to π.
+    here : callable
+        `here(state)` returns the current φ and θ⁻.
+    """
     return Plot(
         name="map",
         title="θ⁺ over (φ, θ⁻)",
@@ -76,7 +86,7 @@ def phase_plot(
 
 
 def range_text(theta_plus: Array) -> str:
-    """Return the range of a curve θ⁺(φ) in words."""
+    """Return the range of a curve θ⁺(φ), (n,), in words; a range below 1e-4 counts as constant."""
     low, high = float(np.min(theta_plus)), float(np.max(theta_plus))
     return f"θ⁺ = {digits(low)} for every φ" if high - low < 1e-4 else f"θ⁺ from {digits(low)} to {digits(high)}"
 
@@ -87,18 +97,18 @@ def order_plot(
     here: Callable[[S], tuple[float, float]],
     closed: Callable[[S], float],
 ) -> Plot[S]:
-    """Return the plot of cos χ over k; a click sets k.
+    """Return the plot of cos χ over k; a click or drag sets k.
 
     Parameters
     ----------
     ends : callable
         `ends(state)` returns the range of k.
     orders : callable
-        `orders(state)` returns rows (k, cos χ) of the closed form.
+        `orders(state)` returns rows (k, cos χ) of the closed form, (n, 2).
     here : callable
         `here(state)` returns k of the body and the computed cos χ.
     closed : callable
-        `closed(state)` returns the closed form for the body.
+        `closed(state)` returns cos χ of the closed form for the body.
     """
 
     def about(state: S) -> Caption:
@@ -127,6 +137,6 @@ def order_plot(
 
 
 def cosine_axis(largest: float) -> Range:
-    """Return an axis from −1 to slightly above the largest cosine."""
+    """Return an axis from just below −1 to above the largest cosine."""
     reach = round_up(max(1e-3, 1.0 + float(largest)))
     return -1.0 - 0.05 * reach, -1.0 + 1.05 * reach

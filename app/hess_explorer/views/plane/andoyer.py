@@ -27,7 +27,21 @@ def picture(
     orbit: Callable[[S], Array],
     color: str = theme.ORBIT,
 ) -> Plot[S]:
-    """Return the plot of the Hess relation and an orbit, both as rows (l, L/G); a ring marks the start."""
+    """Return the plot of the Hess relation and an orbit; a ring marks the start.
+
+    Parameters
+    ----------
+    title : str
+        Heading.
+    caption : callable
+        `caption(state)` returns the caption.
+    relation : callable
+        `relation(state)` returns points (l, L/G), (n, 2), of the Hess relation.
+    orbit : callable
+        `orbit(state)` returns points (l, L/G), (m, 2), of the orbit.
+    color : str
+        Colour of the orbit.
+    """
     return Plot(
         name="andoyer",
         title=title,
@@ -59,16 +73,18 @@ def middle_layers(
     curve: Callable[[S], tuple[Array, Array]],
     across: Callable[[S], Positions],
 ) -> Layers[S]:
-    """Return the layers between the orbits of a section and the chosen orbits, including their track.
+    """Return the layers between the other orbits of a section and the chosen ones.
+
+    They include all points of the current orbit, from the track "orbit".
 
     Parameters
     ----------
     other_sheets : callable
-        `other_sheets(state)` returns points (n, 2) on another sheet.
+        `other_sheets(state)` returns crossings (l, L/G), (n, 2), on another sheet of the section.
     curve : callable
-        `curve(state)` returns l and L/G of the Hess relation.
+        `curve(state)` returns l and L/G of the Hess relation, each (m,).
     across : callable
-        `across(state)` returns the ends of the line of the rotation number in the window.
+        `across(state)` returns the ends of the line of the rotation number that lie in the window; empty for none.
     """
     return (
         dots(
@@ -88,7 +104,7 @@ def middle_layers(
 
 
 def _parts(points: Array) -> list[Array]:
-    """Split a curve (l, L/G) where M passes 0 and where l passes ±π, where the parts overlap the edge."""
+    """Split a curve (l, L/G), (n, 2), where M passes 0 and where l passes ±π; there the parts overlap the edge."""
     l, x = points.T
     s = np.sqrt(np.maximum(0.0, 1.0 - x * x))
     direction = np.column_stack([s * np.sin(l), s * np.cos(l), x])

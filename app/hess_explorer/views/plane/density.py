@@ -16,7 +16,7 @@ _TONES = 256
 _FAINTEST = 0.3
 """Tone of a pixel with a single crossing."""
 _BRIGHT = 0.995
-"""Share of the visited pixels below the full tone: a few pixels of fixed points would leave all others dark."""
+"""Share of the visited pixels below the full tone: a few pixels at fixed points would leave all others faint."""
 
 
 def tones(counts: Sequence[Array]) -> list[Array]:
@@ -28,7 +28,7 @@ def tones(counts: Sequence[Array]) -> list[Array]:
     Parameters
     ----------
     counts : sequence of array (n, m)
-        Number of crossings of each kind in each pixel.
+        Number of crossings of each kind in each pixel, not all 0.
     """
     total = np.sum(counts, axis=0)
     full = max(2.0, float(np.quantile(total[total > 0], _BRIGHT)))
@@ -43,7 +43,17 @@ def layers(
     labels: tuple[str, ...],
     colors: tuple[str, ...],
 ) -> Layers[S]:
-    """Return one layer of pixels per kind of orbit; a layer is empty if `tones(state)` has no array for its kind."""
+    """Return one layer of pixels per kind of orbits.
+
+    Parameters
+    ----------
+    tones : callable
+        `tones(state)` returns the opacities of `tones`, one array (n, m) for each kind; a layer without one is empty.
+    window : callable
+        `window(state)` returns the corners of the window that the pixels fill.
+    labels, colors : tuple of str
+        Legend entry and colour of each kind.
+    """
 
     def of(i: int) -> Callable[[S], Array | None]:
         def cells(state: S) -> Array | None:

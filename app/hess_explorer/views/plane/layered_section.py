@@ -30,7 +30,7 @@ _CLEAR = theme.FORBIDDEN + "00"
 
 
 def thin_out(points: Array, window: Window) -> Array:
-    """Thin points (n, 2) to one per cell of the window if there are very many."""
+    """Return the points (n, 2); of more than 50,000 points only one in each of 384² cells of the window."""
     if len(points) <= _MANY:
         return points
     low, high = np.array(window)
@@ -65,7 +65,17 @@ def _kinds(
 
 
 def basins(arrivals: Callable[[S], Arrivals | None], window: Callable[[S], Window]) -> Layer[S]:
-    """Return the layer of basins: a colour for each attractor, stronger for an earlier arrival."""
+    """Return the layer of basins: a colour for each attractor, stronger for an earlier arrival.
+
+    The fifth attractor and all further ones have one colour; cells that reach no attractor are grey.
+
+    Parameters
+    ----------
+    arrivals : callable
+        `arrivals(state)` returns the arrivals of the cells (n, m), or None.
+    window : callable
+        `window(state)` returns the corners of the window that the cells fill.
+    """
     faint, full = 0.35, 0.95
     shades = [f"{round(255 * (faint + (full - faint) * (i + 0.5) / _SHADES)):02x}" for i in range(_SHADES)]
     colors = (*theme.BASINS, theme.MUTED)
@@ -100,7 +110,7 @@ def basins(arrivals: Callable[[S], Arrivals | None], window: Callable[[S], Windo
 
 
 def indicator(cells: Callable[[S], Array | None], window: Callable[[S], Window]) -> Layer[S]:
-    """Return the layer of MEGNO: cells (m, n) with the kinds of `megno_map`."""
+    """Return the layer of MEGNO: `cells(state)` returns the kinds (n, m) of `megno_map` over the window, or None."""
     colors = (theme.SHEET + "50", theme.UNSTABLE + "60", theme.STABLE + "70", theme.MAP + "80", theme.MUTED + "60")
     labels = ("regular", "chaotic", "regular, volume shrinks", "chaotic, volume shrinks", "motion ends early")
     return _kinds("megno", cells, window, colors, labels)
@@ -127,13 +137,13 @@ def layers(
     own : callable
         `own(state)` returns the points (n, 2) of each chosen orbit.
     chosen : callable
-        `chosen(state)` returns their starts.
+        `chosen(state)` returns the starts of these orbits, as points (x, y).
     forbidden_cells : callable
-        `forbidden_cells(state)` returns cells (m, n) over the window, 1 in the forbidden region.
+        `forbidden_cells(state)` returns cells (n, m) over the window, 1 in the forbidden region.
     window : callable
         `window(state)` returns the visible window.
     labels : tuple of str
-        Names of the kinds in the legend.
+        Names of both kinds in the legend.
     between : sequence of Layer
         Further layers, above the points of both kinds and below those of the chosen orbits.
     """

@@ -18,9 +18,10 @@ S = TypeVar("S")
 
 
 def visible_parts(curve: Array, turn: float, axes: Axes) -> list[Array]:
-    """Return the visible parts of a curve (n, 2) over an angle of period `turn` (∞ for other coordinates).
+    """Return the parts of a curve (n, 2) within the horizontal axis, including its copies shifted by periods.
 
-    A part extends one point beyond the frame, which clips it.
+    `turn` is the period of the horizontal coordinate, ∞ if it is not an angle.  A part extends one point beyond the
+    axis, and the frame clips it.
     """
     low, high = axes.x
     x = curve[:, 0]
@@ -39,7 +40,7 @@ def visible_parts(curve: Array, turn: float, axes: Axes) -> list[Array]:
 
 
 def visible_points(points: Array, turn: float, axes: Axes) -> Array:
-    """Return the visible points (n, 2) over an angle of period `turn` (∞ for other coordinates)."""
+    """Return the points (n, 2) within the horizontal axis; angles, of period `turn` < ∞, are first shifted to it."""
     low, high = axes.x
     x, y = points.T
     x = x if math.isinf(turn) else low + np.mod(x - low, turn)
@@ -52,7 +53,17 @@ def layers(
     manifolds: Callable[[S], Sequence[Manifold]],
     homoclinic: Callable[[S], Sequence[Intersection]],
 ) -> Layers[S]:
-    """Return the layers: manifolds of saddles, their intersections, and the points of periodic orbits on top."""
+    """Return the layers: manifolds of saddles, their intersections, and the points of periodic orbits on top.
+
+    Parameters
+    ----------
+    orbits : callable
+        `orbits(state)` returns the periodic orbits.
+    manifolds : callable
+        `manifolds(state)` returns the branches of the manifolds; not empty if there are homoclinic points.
+    homoclinic : callable
+        `homoclinic(state)` returns the intersections of the manifolds.
+    """
 
     def parts(stable: bool) -> Callable[[S, Axes], list[Array]]:
         return lambda s, axes: [
@@ -137,7 +148,10 @@ def orbit_points(orbits: Callable[[S], Sequence[PeriodicOrbit]]) -> Layers[S]:
 
 
 def sign_of(kind: str) -> str:
-    """Return "attracts", "repels" or "neither" for a kind of periodic orbit."""
+    """Return "attracts", "neither" or "repels" for a kind of periodic orbit.
+
+    Elliptic and parabolic orbits are "neither", saddles count as "repels".
+    """
     if kind in ("stable node", "stable focus"):
         return "attracts"
     return "neither" if kind == "elliptic" or kind.startswith("parabolic") else "repels"

@@ -21,7 +21,10 @@ S = TypeVar("S")
 
 
 def plane_columns(orbit: Orbit, q: Array, **more: Array) -> Columns:
-    """Return the columns of an orbit for this plane and the sphere, with q (m, 2) and `more` columns."""
+    """Return the columns t, q1, q2, g1, g2 and g3 of an orbit with m states (ω1, ω2, γ), and `more` columns.
+
+    `q` (m, 2) are the positions in the plane.
+    """
     return {
         "t": column(orbit.times),
         "q1": column(q[:, 0]),
@@ -39,7 +42,23 @@ def picture(
     layers: Layers[S],
     dots: Mapping[str, tuple[str, str]] | None = None,
 ) -> Plot[S]:
-    """Return the plot of the plane, with a point moving along the orbit; a click sets the parameters `names`."""
+    """Return the plot of the plane, with a point moving along the orbit; a click starts another orbit.
+
+    Parameters
+    ----------
+    title : str
+        Heading.
+    caption : callable
+        `caption(state)` returns the caption.
+    half_width : callable
+        `half_width(state)` returns half the length of both axes.
+    names : tuple of str
+        Names of the parameters that a click sets to q1 and q2.
+    layers : sequence of Layer
+        Layers from the back to the front.
+    dots : mapping of str to tuple, optional
+        As for `Plot`.
+    """
     return Plot(
         name="domain",
         title=title,
@@ -58,7 +77,17 @@ def picture(
 def background_layers(
     edge: Callable[[S], Array], forbidden: Callable[[S], Sequence[Array]], levels: Callable[[S], Sequence[Array]]
 ) -> Layers[S]:
-    """Return the layers below the orbit: grey outside the edge and inside forbidden curves, and equipotentials."""
+    """Return the layers below the orbit: the forbidden region in grey, and equipotentials.
+
+    Parameters
+    ----------
+    edge : callable
+        `edge(state)` returns the closed curve (n, 2) around the domain; its exterior is grey.
+    forbidden : callable
+        `forbidden(state)` returns closed curves (m, 2); their interior is grey, too.
+    levels : callable
+        `levels(state)` returns the equipotentials, curves (k, 2).
+    """
 
     def grey(state: S, axes: Axes) -> Regions:
         outer = edge(state)
@@ -73,7 +102,7 @@ def background_layers(
 
 
 def orbit(start: Callable[[S], tuple[float, float]], label: str = "") -> Layers[S]:
-    """Return the layers: the track of the orbit and a ring at its start."""
+    """Return the layers: the orbit along its track, and a ring at `start(state)` with the legend entry `label`."""
     return (
         line("orbit", track="orbit", columns=("q1", "q2"), color=theme.ORBIT, label="orbit", tag="orbit"),
         ring("start", lambda s: [start(s)], label=label, tag="start"),
@@ -83,7 +112,7 @@ def orbit(start: Callable[[S], tuple[float, float]], label: str = "") -> Layers[
 def momentum_picture(
     momentum: Callable[[S], tuple[Array, Array]], least: Callable[[S], float], is_integral: Callable[[S], bool]
 ) -> Plot[S]:
-    """Return the plot of q1p2 − q2p1 over time, which is an integral if the force is central.
+    """Return the plot of q1p2 − q2p1 over time, which is an integral for I11 = I22.
 
     Parameters
     ----------
@@ -92,7 +121,7 @@ def momentum_picture(
     least : callable
         `least(state)` returns the minimum half height of the axis.
     is_integral : callable
-        `is_integral(state)` returns whether the force is central.
+        `is_integral(state)` returns whether I11 = I22.
     """
 
     def about(state: S) -> Caption:
@@ -102,7 +131,7 @@ def momentum_picture(
                 "q₁p₂ − q₂p₁ is an integral for I₁₁ = I₂₂.",
                 f"{digits(float(values[0]))}, constant within {digits(float(np.ptp(values)), 1)}.",
             )
-        return Caption("q₁p₂ − q₂p₁ is no integral for I₁₁ ≠ I₂₂.", f"Along this orbit {variation_text(values)}.")
+        return Caption("q₁p₂ − q₂p₁ is not an integral for I₁₁ ≠ I₂₂.", f"Along this orbit {variation_text(values)}.")
 
     return Plot(
         name="momentum",

@@ -29,7 +29,7 @@ _LEVELS = (0.1, 0.25, 0.5, 0.75, 0.95)
 
 
 def caption(body: PotentialBody, motion: PlaneMotion) -> Caption:
-    """Return the caption of a motion: whether it is periodic, and whether a further integral exists."""
+    """Return the caption of a motion: period and closure error, or why no period is known and how constant F2 is."""
     if motion.is_fixed_point:
         return Caption("A fixed point: nothing changes.")
     if motion.period is not None:
@@ -60,7 +60,19 @@ def picture(
     motion: Callable[[S], PlaneMotion],
     half_width: Callable[[S], float],
 ) -> Plot[S]:
-    """Return the plot of the domain: equipotentials of U, and the motion from the chosen start."""
+    """Return the plot of the domain: equipotentials of U, and the motion from the chosen start.
+
+    Parameters
+    ----------
+    name : callable
+        `name(state)` returns the name of the potential.
+    body : callable
+        `body(state)` returns the body.
+    motion : callable
+        `motion(state)` returns the motion.
+    half_width : callable
+        `half_width(state)` returns half the length of both axes.
+    """
 
     def edge(state: S) -> Array:
         angle = np.linspace(0.0, 2.0 * np.pi, 241)

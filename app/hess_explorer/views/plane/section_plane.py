@@ -41,15 +41,15 @@ def layers(
     Parameters
     ----------
     own : callable
-        `own(state)` returns the points (n, 2) of the chosen orbit.
+        `own(state)` returns the points (n, 2) of the chosen orbit, or None.
     others : callable, optional
-        `others(state)` returns the points (n, 2) of other orbits, drawn small.
+        `others(state)` returns the points (n, 2) of other orbits, drawn small, or None.
     forbidden : callable, optional
         `forbidden(state, axes)` returns the forbidden region, as for `region`.
     start : callable, optional
-        `start(state)` returns the start of the chosen orbit.
+        `start(state)` returns the start of the chosen orbit as a list; empty for none.
     ended : callable, optional
-        `ended(state)` returns the points (n, 2) of other orbits that end early.
+        `ended(state)` returns the points (n, 2) of other orbits that end early, or None.
     """
     found: list[Layer[S]] = []
     if forbidden is not None:
@@ -78,7 +78,7 @@ def _few(crossings: Array | None) -> Array | None:
 
 
 def concatenate(parts: Iterable[Array]) -> Array:
-    """Concatenate the points (n, 2) of some orbits."""
+    """Return the points (n, 2) of all given orbits as one array; n = 0 without orbits."""
     return np.concatenate([np.empty((0, 2)), *parts])
 
 

@@ -25,7 +25,7 @@ _SHADES = tuple(f"{theme.STABLE}{round(220 * i / 255):02x}" for i in range(256))
 
 
 def phases(track: Track, theta: CircleMap | None) -> Array:
-    """Return σ (n,) in [−π, π) along an orbit; σ grows by 2π per return.  0 on the separatrix."""
+    """Return σ (n,) in [−π, π) along an orbit, where σ grows by 2π per return; 0 if `theta` is None (separatrix)."""
     if theta is None:
         return np.zeros(track.orbit.times.size)
     turns = track.orbit.times / theta.period
@@ -33,7 +33,7 @@ def phases(track: Track, theta: CircleMap | None) -> Array:
 
 
 def reason_for_no_density(theta: CircleMap | None, turning_points: TurningPoints | None) -> str:
-    """Return the reason for a missing density, "" if it exists; the arguments are None on the separatrix."""
+    """Return the reason for a missing density; empty if it can be drawn.  The arguments are None on the separatrix."""
     if theta is None or turning_points is None:
         return "On the separatrix no motion returns."
     if turning_points.roots[2] - turning_points.roots[1] < 1e-6:
@@ -46,7 +46,7 @@ def reason_for_no_density(theta: CircleMap | None, turning_points: TurningPoints
 
 
 def caption(density: Array) -> Caption:
-    """Return the caption of a density relative to the uniform density."""
+    """Return the caption of a density (n, m) relative to the uniform density."""
     low, high = digits(float(density.min()), 3), digits(float(density.max()), 3)
     if low == high:
         return Caption("The flow preserves the uniform density.", "Uniform to three digits.")
@@ -54,7 +54,13 @@ def caption(density: Array) -> Caption:
 
 
 def picture(density: Callable[[S], tuple[Array | None, str]]) -> Plot[S]:
-    """Return the plot of the density (n, m) relative to the uniform one, or of the reason for None, and the orbit."""
+    """Return the plot of the invariant density and of the orbit over (σ, φ).
+
+    Parameters
+    ----------
+    density : callable
+        `density(state)` returns the density (n, m) relative to the uniform one, or None, and the reason for None.
+    """
 
     def state_caption(state: S) -> Caption:
         found, reason = density(state)

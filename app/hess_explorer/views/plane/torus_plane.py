@@ -28,7 +28,17 @@ def layers(
     half_width: Callable[[S], float],
     proved: Callable[[S], Regions] = lambda s: (),
 ) -> Layers[S]:
-    """Return the layers: orbit, stable and unstable cycle in the ring between two ellipses, and the proved band."""
+    """Return the layers: forbidden region, proved band, orbit, stable and unstable limit cycle.
+
+    Parameters
+    ----------
+    ring : callable
+        `ring(state)` returns the inner and the outer ellipse (m, 2) between which motion is possible.
+    half_width : callable
+        `half_width(state)` returns half the length of both axes.
+    proved : callable
+        `proved(state)` returns the regions that enclose the true orbit, as for `velocity_plane.band`.
+    """
     return (
         region(
             "forbidden",
@@ -63,23 +73,26 @@ def layers(
 
 
 def phases_at_returns(track: Track, theta: CircleMap, iterates: Array) -> Array:
-    """Return the phase of the last return at each time (n,) of an orbit, given the phases `iterates` of all returns."""
+    """Return the phase of the last return at each time (n,) of an orbit.
+
+    `iterates` (k,) are the phases of the returns; the last one is repeated at later times.
+    """
     index = np.floor(track.orbit.times / theta.period).astype(int)
     return np.asarray(iterates[np.minimum(index, len(iterates) - 1)])
 
 
 def track_columns(track: Track, **more: Array) -> Columns:
-    """Return the columns of an orbit, with `more` columns for the player."""
+    """Return the columns of an orbit for the player: t, ω, γ and φ, and `more` columns."""
     return velocity_columns(track.times, track.omega, track.gamma, phi=track.phi, **more)
 
 
 def cycle_columns(cycles: tuple[Track, Track] | None, i: int) -> Columns | None:
-    """Return the columns of the stable (0) or the unstable (1) limit cycle."""
+    """Return the columns of the stable (0) or the unstable (1) limit cycle; None without limit cycles."""
     return None if cycles is None else velocity_columns(None, cycles[i].omega, cycles[i].gamma)
 
 
 def is_circle(turning_points: TurningPoints | None) -> bool:
-    """Return whether the torus is a circle to the eye: n3 is constant, on the bifurcation curve."""
+    """Return whether the torus looks like a circle: on the bifurcation curve n3 is constant.  False for None."""
     return turning_points is not None and turning_points.roots[2] - turning_points.roots[1] < 1e-6
 
 

@@ -35,7 +35,10 @@ S = TypeVar("S")
 
 
 def velocity_columns(times: Array | None, omega: Array, gamma: Array, **more: Array) -> Columns:
-    """Return the columns of ω (m, 2) and γ (m, 3) for this plane and the sphere, with `more` columns."""
+    """Return the columns omega1, omega2, g1, g2 and g3 of ω (m, 2) and γ (m, 3), with `more` columns.
+
+    With times (m,) there is also a column t.
+    """
     moving = {} if times is None else {"t": column(times)}
     return {
         **moving,
@@ -47,7 +50,7 @@ def velocity_columns(times: Array | None, omega: Array, gamma: Array, **more: Ar
 
 
 def orbit_columns(orbit: Orbit, **more: Array) -> Columns:
-    """Return the `velocity_columns` of states (ω1, ω2, γ)."""
+    """Return the `velocity_columns` of an orbit with states (ω1, ω2, γ1, γ2, γ3)."""
     return velocity_columns(orbit.times, orbit.states[:, :2], orbit.states[:, 2:], **more)
 
 
@@ -65,7 +68,21 @@ def picture(
     title: str = "Angular velocity (ω₁, ω₂)",
     on_click: Callable[[S, float, float], Values] | None = None,
 ) -> Plot[S]:
-    """Return the plot of the plane, with a point moving along the orbit."""
+    """Return the plot of the plane, with a point moving along the orbit.
+
+    Parameters
+    ----------
+    caption : callable
+        `caption(state)` returns the caption.
+    half_width : callable
+        `half_width(state)` returns half the length of both axes.
+    layers : sequence of Layer
+        Layers from the back to the front.
+    title : str
+        Heading.
+    on_click : callable, optional
+        `on_click(state, x, y)` returns the parameter values of another start.
+    """
     return Plot(
         name="omega",
         title=title,
@@ -81,14 +98,17 @@ def picture(
 
 
 def orbit(label: str) -> Layer[S]:
-    """Return the bold layer of the orbit."""
+    """Return the layer of the orbit, a bold line along the track "orbit"."""
     return line(
         "orbit", track="orbit", columns=("omega1", "omega2"), color=theme.ORBIT, width=2.5, label=label, tag="orbit"
     )
 
 
 def chosen_orbit(states: Callable[[S], Array], colour: Callable[[S], int]) -> Layers[S]:
-    """Return the layers of the orbit `states(state)` (n, 2), one for each of the colours `theme.CHOSEN`."""
+    """Return the layers of the orbit `states(state)` (n, 2), one for each colour of `theme.CHOSEN`.
+
+    Only the layer with the index `colour(state)` draws it.
+    """
 
     def of(i: int, color: str) -> Layer[S]:
         return line(
@@ -99,7 +119,7 @@ def chosen_orbit(states: Callable[[S], Array], colour: Callable[[S], int]) -> La
 
 
 def band(data: Callable[[S], Regions]) -> Layer[S]:
-    """Return the layer of polygons (n, 2) that enclose the true orbit where they are wider than a pixel."""
+    """Return the layer of the regions `data(state)` that enclose the true orbit where its error is visible."""
     return region("band", data, color=theme.SHEET, label="proved enclosure of the orbit", is_overlay=True)
 
 
@@ -122,7 +142,7 @@ def round_up(value: float) -> float:
 
 
 def half_width_for(speed: float) -> float:
-    """Return the half width of a plane with room for |ω| = `speed`."""
+    """Return the half width of a plane with room for |ω| = `speed`, a round number."""
     return round_up(1.05 * max(1e-9, speed))
 
 
@@ -142,17 +162,20 @@ def square(half_width: float) -> Array:
 
 
 def exterior(curve: Array, half_width: float) -> list[Array]:
-    """Return the exterior of a closed curve (m, 2) as a part of a region."""
+    """Return the exterior of a closed curve (m, 2) within the square ±half_width, as a part of a region."""
     return [square(half_width), curve]
 
 
 def ring_outside(inner: Array, outer: Array, half_width: float) -> Regions:
-    """Return the complement of the ring between two closed curves (m, 2) as a region larger than any axes."""
+    """Return the complement of the ring between two closed curves (m, 2), out to four half widths, as a region."""
     return [exterior(outer, 4.0 * half_width), [inner]]
 
 
 def label_points(inner: Array, outer: Array, half_width: float) -> Array:
-    """Return points (2, 2) for two labels: just inside the inner curve and just outside the outer curve."""
+    """Return points (2, 2) for two labels, given a point (2,) of an inner and one of an outer curve around 0.
+
+    The first is just inside the inner curve, the second just outside the outer curve.
+    """
     gap = 0.09 * half_width
     lengths = np.linalg.norm([inner, outer], axis=1)
     return np.array([inner * (1.0 - min(1.0, gap / lengths[0])), outer * (1.0 + gap / lengths[1])])
@@ -161,9 +184,14 @@ def label_points(inner: Array, outer: Array, half_width: float) -> Array:
 def half_lines(
     stable: Callable[[S, Axes], Array], unstable: Callable[[S, Axes], Array], labels: tuple[str, str]
 ) -> Layers[S]:
-    """Return the layers of the stable and the unstable half of the line of equilibria, segments (2, 2).
+    """Return the layers of the stable and the unstable half of the line of equilibria.
 
-    The label in the picture is the part of the legend entry before the comma.
+    Parameters
+    ----------
+    stable, unstable : callable
+        Functions of the state and the axes that return the two ends of a half, (2, 2).
+    labels : tuple of str
+        Legend entries.  The part before the comma is the label in the picture.
     """
     tags = [label.split(",")[0] for label in labels]
     return (
@@ -188,13 +216,13 @@ def half_lines(
 
 
 def half_line(point: Array, half_width: float, axes: Axes) -> Array:
-    """Return the half line (2, 2) from 0 through a point (2,) to beyond the frame."""
+    """Return the ends (2, 2) of the half line from 0 through a point (2,) to beyond the frame."""
     far = max(half_width, axes.x[1]) / max(float(np.max(np.abs(point))), 1e-300)
     return np.array([np.zeros(2), far * np.asarray(point)])
 
 
 def equilibria(stable: Callable[[S], Array], unstable: Callable[[S], Array]) -> Layers[S]:
-    """Return the layers of a stable point (2,), filled, and of an unstable point, hollow."""
+    """Return the layers of a stable equilibrium, filled, and of an unstable one, hollow; both functions return (2,)."""
     return (
         points("stable-point", lambda s: stable(s)[:, None], color=theme.STABLE, size=11, edge_width=3),
         points(
@@ -204,7 +232,7 @@ def equilibria(stable: Callable[[S], Array], unstable: Callable[[S], Array]) -> 
 
 
 def energy_levels(data: Callable[[S], Sequence[Array]], half_width: Callable[[S], float], label: str) -> Layers[S]:
-    """Return the layers of curves (m, 2) at other energies, with arrows in their direction."""
+    """Return the layers of the curves `data(state)`, each (m, 2), at other energies, with arrows in their direction."""
     return (
         curves("levels", data, color=theme.MUTED, width=1, label=label),
         arrows("level-arrows", lambda s: arrows_on(data(s), half_width(s)), color=theme.MUTED, size=8),
@@ -212,12 +240,15 @@ def energy_levels(data: Callable[[S], Sequence[Array]], half_width: Callable[[S]
 
 
 def arcs(data: Callable[[S], Sequence[Array]]) -> Layer[S]:
-    """Return the layer of thin curves (m, 2) along orbits; `arrows` show the direction."""
+    """Return the layer of thin curves `data(state)`, each (m, 2), along orbits."""
     return curves("arcs", data, color=theme.ORBIT, width=1, alpha=0.5)
 
 
 def arrows_at(middles: Sequence[tuple[Array, int]]) -> Array:
-    """Return x, y, angle for `arrows` at the i-th point of each curve (m, 2), or the nearest inner point."""
+    """Return x, y and angle (3, n) for `arrows`, given pairs of a curve (m, 2) and the index of its point.
+
+    An end point is replaced by the nearest inner point; curves of fewer than three points get no arrow.
+    """
     found = []
     for curve, index in middles:
         if len(curve) > 2:
@@ -227,7 +258,10 @@ def arrows_at(middles: Sequence[tuple[Array, int]]) -> Array:
 
 
 def arrows_on(curves: Sequence[Array], half_width: float) -> Array:
-    """Return x, y, angle for `arrows` in the middle of each curve (m, 2) that is long enough."""
+    """Return x, y and angle (3, n) for `arrows`, in the middle of each curve (m, 2) that is long enough.
+
+    Curves shorter than 2 % of the half width get no arrow.
+    """
     found = []
     for curve in curves:
         length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1))])

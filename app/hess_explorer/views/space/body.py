@@ -42,12 +42,12 @@ class Shape:
     axes : array (3, 3)
         Principal axes in rows.
     moments : array (3,)
-        Principal moments of inertia.
-    names : tuple of str
-        Names of the axes.
+        Principal moments of inertia, in the order of the axes.
     section : array (3,) or None
         Normal of a circular section of the gyration ellipsoid (M, I⁻¹M) = const, which is then drawn.  None draws the
         ellipsoid of inertia (ω, Iω) = const.
+    names : tuple of str
+        Names of the axes.
     """
 
     axes: Array
@@ -57,7 +57,7 @@ class Shape:
 
     @classmethod
     def of_tensor(cls, tensor: Array, section: Sequence[float] | Array | None = None) -> Shape:
-        """Return the shape of a tensor of inertia (3, 3), with unnamed axes."""
+        """Return the shape of a tensor of inertia (3, 3), with unnamed axes and increasing moments."""
         moments, vectors = np.linalg.eigh(tensor)
         # Round-off may make a very small moment zero or negative.
         moments = np.maximum(moments, 1e-9 * moments[-1])
@@ -65,19 +65,22 @@ class Shape:
 
     @property
     def semi_axes(self) -> Array:
-        """Semi-axes (3,) of the ellipsoid, proportional to √I1 : √I2 : √I3 or to their inverses."""
+        """Semi-axes (3,) of the ellipsoid: √I1 : √I2 : √I3 for the gyration ellipsoid, otherwise their inverses.
+
+        The longest is `LARGEST`; none is shorter than 0.12 of it.
+        """
         lengths = np.sqrt(self.moments) if self.section is not None else 1.0 / np.sqrt(self.moments)
         return LARGEST * np.maximum(lengths / np.max(lengths), _THINNEST)
 
     def weights(self, centre: Array | None, hollow: bool) -> Array:
-        """Return weights (n, 4) as x, y, z, radius, with the moments of inertia of the body.
+        """Return six weights on the principal axes, rows (x, y, z, radius), with the moments of inertia of the body.
 
-        Their volumes are proportional to their masses.  Empty if no weights have these moments.
+        Their volumes are proportional to their masses.  Shape (0, 4) if the moments are not those of a rigid body.
 
         Parameters
         ----------
         centre : array (3,) or None
-            Direction of their centre of mass.
+            Direction of their centre of mass; None for the fixed point.
         hollow : bool
             True for weights in the wall of a hollow ball.
         """
@@ -118,8 +121,12 @@ class Rod:
 
     Attributes
     ----------
+    along : sequence of float
+        Unit vector (3,) of the body.
     style : str
         "mass" (ends in a ball), "axis", "orbit", "second", "stable", "unstable" or "muted".
+    label : str
+        Text at the end of the rod; empty for none.
     """
 
     along: Sequence[float] | Array
@@ -129,9 +136,16 @@ class Rod:
 
 @dataclass(frozen=True)
 class Curve:
-    """A curve in space, in components (n, 3) along (γ, e, γ × e).
+    """A curve fixed in space.
 
-    Its `style` is a style of `Rod` or "limit"; the width is in pixels.
+    Attributes
+    ----------
+    points : array (n, 3)
+        Components along (γ, e, γ × e).
+    style : str
+        A style of `Rod`, or "limit".
+    weight : float
+        Line width in pixels; 0 for that of the style.
     """
 
     points: Array
@@ -140,7 +154,7 @@ class Curve:
 
 
 def to_picture_axes(points: Array) -> Array:
-    """Convert components along (γ, e, γ × e) to the axes of the picture: e, −γ × e and −γ (upwards)."""
+    """Convert components (..., 3) along (γ, e, γ × e) to the axes of the picture: e, −γ × e and −γ (upwards)."""
     return np.stack([points[..., 1], -points[..., 2], -points[..., 0]], axis=-1)
 
 
@@ -159,16 +173,16 @@ class BodyInSpace(Picture[S]):
 
     Attributes
     ----------
-    shape : callable or None
+    shape : callable
         `shape(state)` returns the ellipsoid of the body, or None.
     motion : callable or None
-        `motion(state)` returns its attitude and the times (n,) in the player's units, or None.
+        `motion(state)` returns its attitude and the times (n,) in the player's units; None for an empty picture.
     wheels : Wheels or None
         The wheels of its constraint.
-    trail : callable or None
-        `trail(state)` returns the direction whose trace is drawn, or None.
-    mass : callable or None
-        `mass(state)` returns the direction of the centre of mass of the weights, or None.
+    trail : callable
+        `trail(state)` returns the direction (3,) whose trace is drawn, or None.
+    mass : callable
+        `mass(state)` returns the direction (3,) of the centre of mass of the weights, or None for the fixed point.
     hollow : bool
         True to draw a glass ball rolling on an inner ball instead of the ellipsoid.
     heavy : callable
@@ -225,7 +239,7 @@ class BodyInSpace(Picture[S]):
         }
 
     def data(self, state: S) -> Sources:
-        """Return the columns of the body, its motion and the other marks."""
+        """Return the columns of the body, its motion, and the marks and curves; empty if `motion(state)` is None."""
         shape = self.shape(state)
         motion = None if self.motion is None else self.motion(state)
         if self.motion is not None and motion is None:

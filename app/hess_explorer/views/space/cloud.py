@@ -38,10 +38,10 @@ def half_width(clouds: Clouds) -> float:
 
 
 def ends_caption(clouds: Clouds) -> Caption:
-    """Return the caption with the median distance of the points from s = 0 at the start and the end."""
+    """Return the caption: the number of points, and their median |s| at the start and at the end."""
     before, after = (digits(math.exp(float(np.median(clouds.cloud.log_s[:, i]))), 3) for i in (0, -1))
     return Caption(
-        numbers=f"{clouds.cloud.signs.size} points: half of them start within |s| < {before}, and end within {after}."
+        numbers=f"{clouds.cloud.signs.size} points: half start with |s| < {before}, half end with |s| < {after}."
     )
 
 
@@ -57,7 +57,7 @@ def status_of(clouds: Clouds) -> Iterator[str]:
 
 
 def history_caption(clouds: Clouds, of_patch: bool) -> Caption:
-    """Return the caption on the change of small volumes, or of the volume of the patch (`of_patch`)."""
+    """Return the caption: change of the volume of the patch (`of_patch`), or mean of div v and of ln s(t)/s(0)."""
     course = clouds.history
     if of_patch:
         text = f"The patch keeps {digits(course.volume[-1], 3)} of its volume"
@@ -70,7 +70,7 @@ def history_caption(clouds: Clouds, of_patch: bool) -> Caption:
 
 
 def largest_distance(clouds: Clouds, exact: Clouds) -> float:
-    """Return the largest distance in pixels, in the plane and on the sphere, from the points of `exact`."""
+    """Return the largest distance in pixels, in the plane or on the sphere, from the same point of `exact`."""
     to_pixels = 0.5 * PIXELS * np.array([1.0 / half_width(exact)] * 2 + [1.0] * 3)
     away = to_pixels * (_points(clouds) - _points(exact))
     return max(float(np.linalg.norm(part, axis=-1).max()) for part in (away[..., :2], away[..., 2:]))
@@ -93,7 +93,7 @@ class CloudPlane(Picture[S]):
     half_width : callable
         `half_width(state)` returns half the length of both axes.
     strip : callable
-        `strip(state)` returns σ1, σ2 and the line of equilibria at the energy h.
+        `strip(state)` returns the strip between σ1 and σ2 at the energy h, with the line of equilibria.
     b3 : callable
         `b3(state)` returns the field of the second cloud, which has I13 = I23 = 0.
     density : str
@@ -127,12 +127,12 @@ class CloudPlane(Picture[S]):
         return {**super().describe(), "density": self.density}
 
     def ranges(self, state: S, held: Axes | None) -> Axes:
-        """Return the axes that fit a state."""
+        """Return the axes that fit a state; `held` is not used."""
         axis = symmetric_range(self.half_width(state))
         return Axes(axis, axis)
 
     def data(self, state: S) -> Sources:
-        """Return the frames of the clouds, and the ends of the halves of the line of equilibria."""
+        """Return the frames of the clouds, and the ends of the halves of the line of equilibria on σ1 and σ2."""
         found, strip = self.clouds(state), self.strip(state)
         cloud, body, log_s = found.cloud, strip.body, found.density.log_s
         count = 2 if body.D else 1
@@ -197,7 +197,7 @@ def _inside(s: Array, share: Array, axes: Axes) -> tuple[Array, Array]:
 def density_layers(density: Callable[[S], Density]) -> Layers[S]:
     """Return the layers of the density over |s|: at the start, at the end, at the time of the player, and the mean.
 
-    The browser fills "now", the density at the time of the player.
+    A dotted line shows c/|s|.  The browser fills "now", the density at the time of the player.
     """
 
     def limit(state: S, axes: Axes) -> tuple[Array, Array]:

@@ -18,7 +18,17 @@ S = TypeVar("S")
 
 @dataclass(frozen=True)
 class Circle:
-    """The circle (γ, axis) = height on the sphere, in a style "limit", "stable", "unstable" or "muted"."""
+    """The circle (γ, axis) = height on the sphere.
+
+    Attributes
+    ----------
+    axis : sequence of float
+        Unit vector (3,).
+    height : float
+        Component of γ along the axis, −1 to 1.
+    style : str
+        "limit", "stable", "unstable" or "muted".
+    """
 
     axis: Sequence[float] | Array
     height: float
@@ -30,7 +40,17 @@ EQUATOR = Circle((0.0, 0.0, 1.0), 0.0, "limit")
 
 @dataclass(frozen=True)
 class Mark:
-    """A labelled point on the sphere, in a style "stable", "unstable" or "muted"."""
+    """A point on the sphere.
+
+    Attributes
+    ----------
+    position : sequence of float
+        Unit vector (3,).
+    style : str
+        "stable", "unstable" or "muted".
+    label : str
+        Text beside the point; empty for none.
+    """
 
     position: Sequence[float] | Array
     style: str
@@ -39,25 +59,33 @@ class Mark:
 
 @dataclass(frozen=True)
 class Direction:
-    """A unit vector (3,) of the body with its label."""
+    """A direction of the body.
+
+    Attributes
+    ----------
+    along : sequence of float
+        Unit vector (3,).
+    label : str
+        Name of the direction.
+    """
 
     along: Sequence[float] | Array
     label: str
 
 
 def ends(axis: Array) -> tuple[Mark, Mark]:
-    """Return both ends of an axis, a unit vector (3,)."""
+    """Return muted marks at both ends of an axis, given as a unit vector (3,)."""
     return Mark(axis, "muted"), Mark(-axis, "muted")
 
 
 def centre_of_mass(b: Sequence[float]) -> Direction | None:
-    """Return the direction r of the centre of mass, b = −mg r; None without a field."""
+    """Return the direction r of the centre of mass, b = −mg r, with b (3,); None without a field."""
     length = float(np.linalg.norm(b))
     return Direction(-np.array(b) / length, "r") if length > 0.0 else None
 
 
 def parallels(axis: Sequence[float] | Array, heights: Iterable[float]) -> list[Circle]:
-    """Return the limit circles about an axis, without heights ±1, which are points."""
+    """Return the limit circles at the given heights about an axis; heights of at least 1 in size are left out."""
     return [Circle(axis, height, "limit") for height in heights if abs(height) < 1.0 - 1e-9]
 
 
@@ -79,8 +107,10 @@ class Sphere(Picture[S]):
     ----------
     looks : mapping of str to str
         Style of each track: "orbit", "second", "stable", "unstable" or "muted".
-    axis, circles, marks : callable or None
-        An axis, circles and marked points, as functions of the state.
+    axis : callable
+        `axis(state)` returns a direction to draw, or None.
+    circles, marks : callable
+        Functions of the state that return circles and marked points.
     colour : callable, optional
         `colour(state)` returns the index of the orbit's colour in `theme.CHOSEN`, instead of its style.
     clouds : str

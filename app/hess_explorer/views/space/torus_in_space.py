@@ -27,7 +27,15 @@ FORMULA = "(w₁, w₂, ṅ₃/ρ₀)/ρ₀, ρ₀ the largest |w| of this h."
 
 @dataclass(frozen=True)
 class SurfaceCurve:
-    """A curve (n, 3) near or on the torus, and the times (n,) of the player; None for a closed curve."""
+    """A curve near or on the torus.
+
+    Attributes
+    ----------
+    points : array (n, 3)
+        Points of the curve.
+    times : array (n,) or None
+        Times of the player; None for a closed curve.
+    """
 
     points: Array
     times: Array | None = None
@@ -39,10 +47,10 @@ class TorusInSpace(Picture[S]):
 
     Attributes
     ----------
-    surface : callable or None
-        `surface(state)` returns its cross-section, or None.
+    surface : callable
+        `surface(state)` returns its cross-section, or None without a torus.
     curves : callable
-        `curves(state)` returns curves by style: "orbit", "stable" or "unstable".
+        `curves(state)` returns curves by style, "orbit", "stable" and "unstable"; any of them may be missing.
     zeta : callable or None
         `zeta(state)` returns the points ζ (n,) of the invariant density along the cross-section, or None without one.
     """
@@ -90,7 +98,10 @@ def _columns(curve: SurfaceCurve | None) -> Columns:
 
 
 def caption(theta: CircleMap | None, turning_points: TurningPoints | None, *more: str) -> Caption:
-    """Return the caption: kind of surface and `more` sentences; the other arguments are None on the separatrix."""
+    """Return the caption: the kind of surface, and the sentences `more`.
+
+    The circle map and the turning points are None on the separatrix.
+    """
     return Caption(_kind(theta, turning_points), " ".join(filter(None, more)))
 
 

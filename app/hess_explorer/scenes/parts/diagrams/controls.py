@@ -47,12 +47,12 @@ def parameter_of_diagram(symbols: tuple[str, ...], default: str) -> str:
 
 @dataclass(frozen=True)
 class DiagramControls(State, ABC):
-    """The parameters of a diagram; a scene adds those of its body and the parameter of the diagram.
+    """The parameters of a diagram; a scene adds those of its body, `h`, and the parameter `along` of the diagram.
 
     Attributes
     ----------
     symbols : mapping of str to str
-        Names of the section's parameters by symbol.
+        Names of the section's parameters, `h` included, by symbol.
     """
 
     h: float
@@ -93,7 +93,7 @@ class DiagramControls(State, ABC):
         10.0,
         bounds=(0.0, 5000.0),
         label="Crossings left out",
-        doc="Crossings left out at each value, until the orbit has settled.",
+        doc="Largest number of crossings left out at each value; fewer if the orbit settles sooner.",
         group="Computation",
     )
     count: float = number(
@@ -112,7 +112,7 @@ class DiagramControls(State, ABC):
         (NONE, *PERIODS),
         NONE,
         group="State",
-        doc="Over the diagram: the periodic orbit that Newton's method finds near the chosen point,  "
+        doc="Over the diagram: the periodic orbit that Newton's method finds near the chosen point, "
         "continued in the parameter, through folds. A click on it shows that orbit.",
     )
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
@@ -125,7 +125,7 @@ class DiagramControls(State, ABC):
 
     @property
     def parameters(self) -> dict[str, float]:
-        """The parameters of the body, by name."""
+        """The values of the body's parameters, by name; without h."""
         return {name: getattr(self, name) for name in self.symbols.values() if name != "h"}
 
     @property

@@ -35,7 +35,7 @@ _STAGES = {"draft": 2, "standard": 3, "precise": 3, "reference": 4}
 _ERRORS = 100.0
 """Errors of the level in a pixel: an orbit that settles forgets its errors, so a coarse level shows the same."""
 _NEAR = 3
-"""Rows within which the way back counts as the same as the way there."""
+"""Rows within which points of the falling way count as points of the rising one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +48,7 @@ class DiagramDensity(Part[OrbitDiagram]):
     Attributes
     ----------
     forward : mapping of str to bool
-        Direction of time of each way, in drawing order.
+        Direction of time of each way, True for forward, in drawing order.
     """
 
     forward: ClassVar[Mapping[str, bool]] = {BACKWARD: False, FALLING: True, RISING: True}
@@ -119,7 +119,7 @@ class DiagramDensity(Part[OrbitDiagram]):
 
     @cached_property
     def tones(self) -> Sequence[Array]:
-        """The tones of the picture, see `views.density.tones`; empty until they are known."""
+        """The tones of each way, see `views.plane.density.tones`; empty until all columns are known."""
         if not (self._complete and self.points):
             return ()
         backward, back, there = (self.counts(way) for way in self.forward)
@@ -131,7 +131,7 @@ class DiagramDensity(Part[OrbitDiagram]):
 
     @property
     def phrase(self) -> str:
-        """The number of points as a sentence; an empty string until they are shown."""
+        """The number of points as a sentence; an empty string until the density is shown."""
         return f"{self.points:,} points. " if self.tones else ""
 
     def status(self) -> Iterator[str]:

@@ -49,7 +49,7 @@ class OrbitDiagram(Part[DiagramControls]):
     """The points to which the orbits of a section settle, over one of its parameters."""
 
     def corrections(self, notes: list[str]) -> Values:
-        """Return a valid window within the diagram, a point, and the edges in order."""
+        """Return the edges in order, the chosen point or the default, and the window if it overlaps the diagram."""
         first, last = sorted((self.host.first, self.host.last))
         if first == last:
             first = min(first, FARTHEST[1] - 1.0)
@@ -96,7 +96,7 @@ class OrbitDiagram(Part[DiagramControls]):
 
     @cached_property
     def height(self) -> Range | None:
-        """The visible range of the coordinate: the chosen window or the range of the attractor; None until known."""
+        """The visible range of the coordinate: of the chosen window, or of the attractor; None until known."""
         (left, low), (right, high) = self._window
         if self.host.window:
             return low, high
@@ -154,7 +154,7 @@ class OrbitDiagram(Part[DiagramControls]):
 
     @cached_property
     def pieces(self) -> dict[str, list[Diagram]]:
-        """The known pieces of each way, in order."""
+        """The known pieces of each way, in the order in which they are computed."""
         found: dict[str, list[Diagram]] = {way: [] for way in self._ramps}
         # Compute the falling ramp last, because it starts at the end of the rising one.
         numbers = product(self._ramps, self._ramps[RISING].pieces)
@@ -170,7 +170,7 @@ class OrbitDiagram(Part[DiagramControls]):
         return {way: sum(len(one.values) for one in some) for way, some in self.pieces.items()}
 
     def points(self, way: str) -> Array | None:
-        """Return the drawn points (2, n) of a way."""
+        """Return the drawn points (2, n) of a way, parameter and coordinate; n = 0 until some are known."""
         parts = [
             np.column_stack([np.full(len(some), value), some[:, self.side]])
             for one in self.pieces.get(way, ())
@@ -186,22 +186,25 @@ class OrbitDiagram(Part[DiagramControls]):
 
     @cached_property
     def doubling(self) -> tuple[float, Array, float] | None:
-        """The first visible period doubling, see `first_doubling`; None if unknown or none is visible."""
+        """The first visible period doubling, see `first_doubling`; None until known, and if none is visible."""
         whole = self._locates and self.progress[RISING] == self.parameter_values.size
         return first_doubling(self.pieces[RISING]) if whole else None
 
     @cached_property
     def cascade(self) -> Cascade | str | None:
-        """The located period doublings, or why none was located; None if unknown or none is visible."""
+        """The located period doublings, or why none was located; None until known, and if none is visible."""
         return (self.work.need(Task(doublings, self._ramps[RISING]), preview=None) or None) if self._locates else None
 
     @property
     def flips(self) -> Array:
-        """The parameter values (k,) of the period doublings."""
+        """The parameter values (k,) of the located period doublings; k = 0 until known, and without any."""
         return self.cascade.values if isinstance(self.cascade, Cascade) else np.empty(0)
 
     def choose(self, x: float, y: float) -> Values:
-        """Return the parameter value and the point that a click at (x, y) selects, at the nearest value with points."""
+        """Return the parameter value and the point that a click at (x, y) selects, at the nearest value with points.
+
+        Without points only the parameter is set, to x.
+        """
         # Round the distances, because the values of the two ramps differ by round-off.
         near = min(
             (
@@ -216,7 +219,7 @@ class OrbitDiagram(Part[DiagramControls]):
         return {self.name: x} if near is None else {self.name: near[2], "chosen": points_text([near[3]])}
 
     def caption(self, points: str = "") -> Caption:
-        """Return the caption: progress, period doublings or periods; `points` is a sentence on their number."""
+        """Return the caption: progress, period doublings or periods; `points` is a sentence on the number of points."""
         known, asked = sum(self.progress.values()), self.parameter_values.size * len(self._ramps)
         if known < asked:
             return Caption(self.work.pending_caption(), f"{known} of {asked} values computed.")
@@ -255,12 +258,10 @@ class OrbitDiagram(Part[DiagramControls]):
 class DiagramBranch(Continuation[OrbitDiagram]):
     """The branch of a periodic orbit over the parameter of the diagram.
 
-    It continues the requested orbit, or the first one whose period doubles.
-
     Attributes
     ----------
     period : str
-        One of `PERIODS`, or `NONE`.
+        Period of the orbit to continue, one of `PERIODS`; `NONE` for the first one whose period visibly doubles.
     """
 
     period: str

@@ -39,7 +39,7 @@ class HessSplit(Part[Host]):
     torus : HessTorus
         The torus in the Hess case.
     away : float
-        ε, the distance of the current state from the Hess case.
+        ε in radians, the angle by which r is rotated off the Hess condition in the current state.
     """
 
     torus: HessTorus
@@ -47,12 +47,15 @@ class HessSplit(Part[Host]):
 
     @property
     def reach(self) -> float:
-        """The half-width of the graph."""
+        """The half-width of the graph: |ε|, or 0.02 if ε = 0."""
         return abs(self.away) or _WIDE
 
     @cached_property
     def _splits(self) -> dict[float, Split | NotFound] | None:
-        """The splits by ε, for the graph and for the slope; None until all are known."""
+        """The splits, or the reasons why they are missing, by ε; None until all are known.
+
+        Without separatrices at ε = 0 there is only the reason at 0.
+        """
         # Without separatrices at ε = 0 there is nothing to split.
         first = self.work.need(Task(_split, self.torus, 0.0), preview=None)
         if not isinstance(first, Split):
@@ -68,17 +71,17 @@ class HessSplit(Part[Host]):
 
     @property
     def splits(self) -> list[Split]:
-        """The known splits within the graph, sorted by ε."""
+        """The splits within the graph, sorted by ε; empty until all are known."""
         return [one for value in self._splits or () if abs(value) <= self.reach and (one := self._split_at(value))]
 
     @property
     def split(self) -> Split | None:
-        """The split of the current state; None if unknown."""
+        """The split of the current state; None until all splits are known, and if it is missing."""
         return self._split_at(self.away)
 
     @property
     def slope(self) -> tuple[float, float] | None:
-        """The slope of the split at ε = 0 and its error; None if unknown."""
+        """The slope of the split at ε = 0 and its error; None until known, and if a split near ε = 0 is missing."""
         close = [one for value in _CLOSE if (one := self._split_at(value))]
         return slope_of(close) if len(close) == len(_CLOSE) else None
 
@@ -88,7 +91,7 @@ class HessSplit(Part[Host]):
         return sorted({one.reason for one in (self._splits or {}).values() if isinstance(one, NotFound)})
 
     def caption(self) -> Caption:
-        """Return the caption of the picture."""
+        """Return the caption: whether the separatrices are split at the current ε, and by how much."""
         if self._splits is None:
             return Caption(self.work.pending_caption())
         if self.split is None or self.slope is None:
@@ -103,7 +106,7 @@ class HessSplit(Part[Host]):
 
     @property
     def message(self) -> str:
-        """The reason why the graph is empty; otherwise an empty string."""
+        """The reason why the graph is empty; an empty string if it is not, or until the splits are known."""
         return "" if self.splits else next(iter(self._reasons), "")
 
     def quantities(self) -> Iterator[str]:

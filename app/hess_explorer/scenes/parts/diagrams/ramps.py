@@ -40,9 +40,9 @@ class Ramp:
     values : tuple of float
         Values of the parameter.
     point : tuple of float
-        Start of the orbit in the section, without `previous`.
+        Point of the section where the orbit starts without `previous`, and where it starts again after a gap.
     transient, count : int
-        Numbers of omitted and of drawn crossings at each value.
+        Largest number of omitted crossings and number of drawn crossings at each value.
     follow : bool
         True to start at the last point of the previous value; False to start at `point` again.
     level : Level
@@ -83,12 +83,12 @@ class Ramp:
 
 
 def piece(ramp: Ramp, number: int) -> Diagram:
-    """Return a piece of a ramp; computes the previous pieces first."""
+    """Return the orbit diagram over one piece of a ramp; compute the previous pieces first."""
     return ramp.diagram(ramp.values[number * _TOGETHER : (number + 1) * _TOGETHER], _reached(ramp, number))
 
 
 def _reached(ramp: Ramp, number: int) -> Point:
-    """Return the last point of the orbit in the section before a piece."""
+    """Return the last point of the orbit before a piece: of the last value with points, or of the previous ramp."""
     if number == 0:
         return ramp.point if ramp.previous is None else _reached(ramp.previous, len(ramp.previous.pieces))
     before: Diagram = Task(piece, ramp, number - 1).get()
@@ -97,7 +97,10 @@ def _reached(ramp: Ramp, number: int) -> Point:
 
 
 def doublings(ramp: Ramp) -> Cascade | str:
-    """Return the period doublings from the first visible one, or why none was located; "" if none is visible."""
+    """Return the period doublings from the first visible one, or why none was located; "" if none is visible.
+
+    Raises `WorkLimit`.
+    """
     seen = first_doubling([Task(piece, ramp, number).get() for number in ramp.pieces])
     if seen is None:
         return ""
@@ -113,7 +116,17 @@ def doublings(ramp: Ramp) -> Cascade | str:
 
 
 def visible_range(ramp: Ramp, side: int, whole: Range) -> Range:
-    """Return the range of a coordinate that contains the attractor, and the repeller if it is near."""
+    """Return the range of a coordinate that contains the attractor, and the repeller if it is near, with a margin.
+
+    Parameters
+    ----------
+    ramp : Ramp
+        A ramp forward in time.
+    side : int
+        Index of the coordinate.
+    whole : (float, float)
+        Full range of the coordinate, to which the result is clipped; it is returned if the attractor has no points.
+    """
     attractor, repeller = (
         [some[:, side] for some in way.diagram(way.values, way.point).points]
         for way in (ramp, replace(ramp, backward=True))
@@ -127,6 +140,6 @@ def visible_range(ramp: Ramp, side: int, whole: Range) -> Range:
 
 
 def _range(parts: Sequence[Array]) -> Range:
-    """Return the range of the points, without a small share of the values."""
+    """Return the range of the points of some values, without the lowest and the highest of a small share of them."""
     lows, highs = zip(*((one.min(), one.max()) for one in parts if len(one)), strict=True)
     return float(np.quantile(lows, _FEW_FAR)), float(np.quantile(highs, 1.0 - _FEW_FAR))

@@ -71,7 +71,7 @@ class RotationMap(Part[Host]):
     line : str
         Parameter that changes along the line through the torus.
     text : str
-        The window as text of a link.
+        The window as text of a link; empty for the full map.
     """
 
     plane: str
@@ -97,7 +97,7 @@ class RotationMap(Part[Host]):
         return self.torus.with_values(**dict.fromkeys(self.sides, 0.0))
 
     def rows(self, plan: Plan, part: slice = slice(None)) -> Task[TorusValues]:
-        """Return the task of some rows of the fine map."""
+        """Return the task of some rows of the fine map, by default all."""
         cells = plan.grid(_FINE)
         first, last, _ = part.indices(cells[1])
         return Task(mechanics.rows, self.plane, self._beside, self.window, cells, first, last, plan.level)
@@ -199,11 +199,11 @@ class RotationMap(Part[Host]):
         return dict(zip(self.sides, (x, y), strict=True))
 
     def box_window(self, corners: Corners) -> Values:
-        """Return the window that a box selects."""
+        """Return the window that a box selects; empty for a box without area."""
         return box_window(corners, _corners(self.plane, BOUNDS), "part_" + "".join(self.sides))
 
     def status(self) -> Iterator[str]:
-        """Yield the size and the error of the map."""
+        """Yield the size of the map, and its error once known."""
         if self.has_result("grid"):
             m, n = self.grid[1]
             task = Task(mechanics.rows_error, self.plane, self._beside, self.window, self.work.plan(Kind.GRID).level)

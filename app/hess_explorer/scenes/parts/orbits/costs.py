@@ -1,4 +1,4 @@
-"""Time and error of all computations of a state, at every level of accuracy."""
+"""Cost of all computations of a state: time and error at every level of accuracy."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Costs:
     work : Work
         Computation of the state.
     base : State
-        The `without_grid` state to measure.
+        The state to measure, from `bare_state`.
     trials : tuple of Trial
         Its computations.
     """
@@ -62,12 +62,15 @@ class Costs:
 
     @cached_property
     def sufficient_levels(self) -> dict[Trial[Any], str]:
-        """The first level of each trial whose error is invisible."""
+        """The cheapest level of each trial with full resolution and an invisible error; the finest if there is none."""
         return {trial: first_sufficient(samples, trial.tolerance) for trial, samples in self.samples.items()}
 
     @cached_property
     def curves(self) -> dict[Trial[Any], tuple[Array, Array]]:
-        """Errors, in units of the largest invisible error, and times in milliseconds of the levels, by trial."""
+        """Errors (n,), in units of the largest invisible error, and times (n,) in milliseconds of the levels, by trial.
+
+        Both are clipped to the axes: errors on both sides, times from below.
+        """
         return {
             trial: (
                 np.clip([one.error / trial.tolerance for one in samples], *_ERRORS),
@@ -93,11 +96,11 @@ class Costs:
         return [*zip(*self._at(dict.fromkeys(self.trials, name)), strict=True)] or None
 
     def rings(self) -> list[tuple[float, float]]:
-        """Return the point of each curve beyond which additional accuracy is invisible."""
+        """Return the point of each curve at its sufficient level."""
         return self._at(self.sufficient_levels)
 
     def caption(self) -> Caption:
-        """Return the caption: the cheapest sufficient level for each trial that has been measured."""
+        """Return the caption: the progress; then the sufficient level of each trial, or why it has none."""
         if self.work.is_preview:
             return Caption("Measured when the slider is released.")
         known = [found for found in self.results.values() if found is not None]
@@ -126,7 +129,15 @@ class Costs:
 
 
 def costs_picture(trials: Sequence[Trial[Any]], folded: bool) -> Plot[Costs]:
-    """Return the picture of cost and error of all computations."""
+    """Return the picture of cost and error of all computations.
+
+    Parameters
+    ----------
+    trials : sequence of Trial
+        The computations; at most four have a curve.
+    folded : bool
+        True to show the picture only after a click on a button.
+    """
 
     def kind(trial: Trial[Any], dash: str, width: float) -> Layer[Costs]:
         name = str(trial.kind)

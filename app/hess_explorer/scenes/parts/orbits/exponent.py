@@ -73,23 +73,23 @@ class OrbitExponent(Part[_Host]):
 
     @property
     def result(self) -> spectrum.Exponent | None:
-        """The exponent of a non-periodic orbit; None until known, and if the motion ends early."""
+        """The exponent of a non-periodic orbit; None until known, while `must_wait`, and if the motion ends early."""
         return None if isinstance(self._answer, NotFound) else self._answer
 
     def compute(self, plan: Plan) -> spectrum.Exponent:
-        """Return the exponent, computed at once."""
+        """Return the exponent for a plan, computed at once.  Raises `ModelError`."""
         return spectrum.lyapunov_exponent(self.host.body, self.host.start, plan.share * self.host.long, plan.level)
 
     @property
     def rates(self) -> tuple[Array, Array] | None:
-        """Times and mean growth rates; None until known."""
+        """Times and mean growth rates, each (n,); None until known, and if the motion ends early."""
         if self.growth is not None:
             return np.array([0.0, self.host.long]), np.full(2, self.growth[0])
         return None if self.result is None else thin(self.result.times, self.result.rates)
 
     @property
     def axis(self) -> Range | None:
-        """The vertical range of the picture; None until the exponent is known."""
+        """The vertical range of the picture; None if there are no `rates`."""
         if self.growth is not None:
             return with_margin(np.array([0.0, self.growth[0]]), 0.1, 1e-6)
         if self.result is None:
@@ -116,7 +116,7 @@ class OrbitExponent(Part[_Host]):
 
     @property
     def separation(self) -> tuple[float, str] | None:
-        """The rate at which neighbours of the orbit separate in the end, and its name; None if unknown or regular."""
+        """The asymptotic rate at which neighbours of the orbit separate, and its name; None if unknown or regular."""
         if self.growth is not None:
             return self.growth[0], f"Near the periodic orbit: ln|μ₁|/T = {digits(self.growth[0])}"
         found = self.result
@@ -139,7 +139,7 @@ def _exponent(body: Body, start: Start, duration: float, level: Level) -> spectr
 
 
 def exponent_picture(button: str = "") -> Plot[Any]:
-    """Return the picture of the mean growth rate over time."""
+    """Return the picture of the mean growth rate over time, with a `button` that shows it, if any."""
     return Plot(
         name="exponent",
         title="Largest Lyapunov exponent",

@@ -45,7 +45,7 @@ class HasTorus(Host, Protocol):
 
     @property
     def h(self) -> float:
-        """The energy.  Raises `ModelError`."""
+        """The energy in units b = 1.  Raises `ModelError`."""
 
     @property
     def turning_points(self) -> TurningPoints | None:
@@ -57,12 +57,18 @@ class HasTorus(Host, Protocol):
 
     @property
     def cycles(self) -> tuple[Track, Track] | None:
-        """The stable and the unstable limit cycle, if they exist.  Raises `ModelError`."""
+        """The stable and the unstable limit cycle; None without limit cycles.  Raises `ModelError`."""
 
 
 @dataclass(frozen=True, eq=False)
 class HeavyTorus(Part[Host]):
-    """The torus of the Hess manifold at the integrals of a heavy body."""
+    """The torus of the Hess manifold at the integrals of a heavy body.
+
+    Attributes
+    ----------
+    heavy : HeavyHess
+        The motion of the heavy body.
+    """
 
     heavy: HeavyHess
 
@@ -92,7 +98,7 @@ class HeavyTorus(Part[Host]):
 
     @cached_property
     def cycles(self) -> tuple[Track, Track] | None:
-        """The stable and the unstable limit cycle, if they exist."""
+        """The stable and the unstable limit cycle; None without limit cycles."""
         hess = self.heavy.bridge.hess
         return limit_cycles(
             self.work, hess, self.map, self.level, hess.frequency_unit * math.sqrt(2.0 * (self.h + 1.0))
@@ -127,7 +133,10 @@ class HessSurface(Part[HasTorus]):
 
     @cached_property
     def density(self) -> tuple[Complex | None, str]:
-        """The points ζ of the invariant density along the cross-section, or None; and the reason for None."""
+        """The points ζ (n,) of the invariant density along the cross-section, or None; and the reason for None.
+
+        The reason is empty if no density is requested or there is no torus.
+        """
         if not self.has_density or self.section is None:
             return None, ""
         map_ = self.host.map
@@ -140,7 +149,7 @@ class HessSurface(Part[HasTorus]):
             return None, str(error)
 
     def curves(self) -> dict[str, SurfaceCurve]:
-        """Return the orbit and the limit cycles by style."""
+        """Return the orbit and the limit cycles by style; empty without a torus."""
         if self.section is None:
             return {}
         states, times = self.orbit()
@@ -150,7 +159,7 @@ class HessSurface(Part[HasTorus]):
         return found
 
     def caption(self) -> Caption:
-        """Return the caption: kind and formula of the surface, or the reason why it has no density."""
+        """Return the caption: the kind of surface, the description, and the reason for a missing density."""
         if self.section is None:
             return Caption("No torus.", "The Hess manifold has no motion with these h and f.")
         return caption(self.host.map, self.host.turning_points, self.description(), self.density[1])

@@ -30,21 +30,29 @@ Curve = tuple[Array, Array]
 
 @dataclass(frozen=True)
 class Precision:
-    """Errors, drift and cost of a motion at every level of accuracy."""
+    """Errors, drift and cost of a motion at every level of accuracy.
+
+    Attributes
+    ----------
+    work : Work
+        Computation of the state.
+    motion : Motion
+        The motion.
+    """
 
     work: Work
     motion: Motion
 
     @cached_property
     def limited_motion(self) -> Motion:
-        """The measured motion, with a limited duration."""
+        """The measured motion: `motion`, or its beginning if all of it would take too long."""
         return replace(
             self.motion, duration=min(self.motion.duration, mechanics.longest_duration(*self.motion.arguments[:3]))
         )
 
     @cached_property
     def work_points(self) -> tuple[mechanics.WorkPoint, ...]:
-        """Error and cost of every level, and of SciPy's methods unless they are slow."""
+        """Error and cost of every level, then of SciPy's methods unless they are slow or during a drag."""
         others = (
             ()
             if self.work.is_preview or mechanics.scipy_takes_long(*self.limited_motion.arguments)
@@ -54,7 +62,7 @@ class Precision:
 
     @cached_property
     def growth(self) -> mechanics.ErrorGrowth:
-        """Errors and drifts over time."""
+        """Errors and drifts over time at every level."""
         return self.work.need(
             Task(mechanics.growth, *self.limited_motion.arguments, self.limited_motion.weights, SAMPLES)
         )
@@ -101,7 +109,7 @@ class Precision:
         return 0.0, float(self.times[-1])
 
     def track(self) -> Columns:
-        """Return the columns that the moving points follow."""
+        """Return the columns that the moving points follow: t, and error, largest drift and pixels at the level."""
         return {
             "t": column(self.times),
             "growth": column(clip(self.growth.errors[self.work.level_name], _FLOOR)),
@@ -110,7 +118,7 @@ class Precision:
         }
 
     def choose(self, x: float, y: float) -> Mapping[str, str]:
-        """Return the level with the error nearest to x."""
+        """Return the level whose error is nearest to x on a logarithmic axis, as a parameter; empty unless x > 0."""
         if not x > 0.0:
             return {}
         return {"accuracy": min(self._taylor, key=lambda point: abs(math.log10(max(point.error, _FLOOR) / x))).setting}

@@ -73,7 +73,7 @@ class OrbitProof(Part[_Host]):
 
     @cached_property
     def error(self) -> ProvedError | None:
-        """The proved error; None until known, if it is hidden, and during a drag."""
+        """The proved error, or why there is none; None until known, if it is hidden, and during a drag."""
         if self.work.is_preview or self.certain != SHOWN:
             return None
         if not has_flint():
@@ -82,23 +82,35 @@ class OrbitProof(Part[_Host]):
 
     @property
     def band(self) -> list[list[Array]]:
-        """Polygons that enclose the true orbit where the error is visible, for a `region`."""
+        """Polygons that enclose the true orbit where the error is visible, for a `region`; empty until known."""
         return [] if self.error is None else [[one] for one in self.error.band]
 
     @property
     def circles(self) -> list[Circle]:
-        """Circles on the sphere that enclose the true orbit at some samples."""
+        """Circles on the sphere that enclose the true orbit at some samples with a visible error; empty until known."""
         found = () if self.error is None else self.error.circles
         return [Circle(gamma, float(np.cos(radius)), "muted") for gamma, radius in found]
 
     def status(self) -> Iterator[str]:
-        """Yield the proved error."""
+        """Yield the proved error, or the reason why there is none."""
         if self.error is not None:
             yield self.error.sentence
 
 
 def proved_error(orbit_task: Task[Orbit | Track], motion: Motion, units: tuple[float, float]) -> ProvedError:
-    """Prove the error of an orbit by a rigorous enclosure (tube) of its motion."""
+    """Prove the error of an orbit by a rigorous enclosure (tube) of its motion.
+
+    If the proof fails or takes too long, the sentence states this.
+
+    Parameters
+    ----------
+    orbit_task : Task
+        The task of the orbit, whose states end with γ.
+    motion : Motion
+        The motion of the orbit.
+    units : tuple of float
+        Factors from ω1 and ω2 of the computation to those of the picture.
+    """
     found: Orbit | Track = orbit_task.get()
     orbit, omega, gamma = (
         (found.orbit, found.omega, found.gamma)

@@ -21,9 +21,9 @@ from hess_mechanics.numerics.results import Array, as_read_only
 
 _NOTHING = np.empty((0, 2))
 _LONG = 500, 1500
-"""Numbers of crossings left out of a set and of those in it."""
+"""Numbers of crossings before a set and in it."""
 _MANY = 24
-"""Largest number of points drawn as large marks: so few dots would be hard to see."""
+"""Largest number of points drawn as large marks, because so few dots would be hard to see."""
 
 
 class _Host(HasSection, Protocol):
@@ -50,14 +50,14 @@ class OrbitRegime(Part[_Host]):
 
     @cached_property
     def sets(self) -> tuple[Array, Array]:
-        """Points (n, 2) of attractor and repeller; empty until known."""
+        """Points (n, 2) of attractor and repeller; empty until known, fewer during a drag."""
         few = (60, 120) if self.work.is_preview else _LONG
         task = Task(sets_of, self._map, self.host.point, *few)
         return self.work.need(task, preview=task if self.work.is_preview else None) or (_NOTHING, _NOTHING)
 
     @cached_property
     def kind(self) -> Dynamics | None:
-        """The kind of motion and of dynamics; None until known."""
+        """The kind of motion and of dynamics; None until known, and during a drag."""
         if self.work.is_preview:
             return None
         duration = self.work.plan(Kind.EXPONENT).share * self.long
@@ -74,7 +74,7 @@ class OrbitRegime(Part[_Host]):
         motion = found.motion
         kind = f"Period {motion.period}" if motion.period else motion.kind.words.capitalize()
         if not found.comparisons:
-            return Caption(f"{kind}.", "Attractor and repeller are not compared: the orbit leaves.")
+            return Caption(f"{kind}.", "Attractor and repeller are not compared: too few returns.")
         if found.verdict == "not told apart":
             return Caption(
                 f"{kind}.", f"Attractor and repeller not distinguished; |mean div| < {digits(motion.bound, 1)}."
@@ -90,9 +90,25 @@ class OrbitRegime(Part[_Host]):
 
 
 def sets_of(map_: ReturnMap, start: Point, transient: int, crossings: int) -> tuple[Array, Array]:
-    """Return the attractor and the repeller (n, d) of the orbit from `start`; empty if it does not return.
+    """Return the attractor and the repeller, each (n, d), of the orbit from a point of a section.
 
-    Raises `OutsideRegion` if no motion is possible there, and `WorkLimit`.
+    Parameters
+    ----------
+    map_ : ReturnMap
+        Return map of the section, forward in time.
+    start : tuple of float
+        Point (d,) where the orbit starts.
+    transient : int
+        Number of crossings before each set.
+    crossings : int
+        Number of crossings n of each set; fewer, down to 0, if the orbit stops returning.
+
+    Raises
+    ------
+    OutsideRegion
+        If no motion is possible at the start.
+    WorkLimit
+        If the orbit needs too many steps.
     """
     attractor, repeller = (
         as_read_only(one.orbit(np.array(start), transient + crossings)[transient:].copy())
@@ -111,6 +127,6 @@ def _dynamics(map_: ReturnMap, start: Point, transient: int, crossings: int, dur
 
 
 def distinct_points(points: Array) -> Array | None:
-    """Return the distinct points (2, m) if there are few of them, to be drawn as large marks; otherwise None."""
+    """Return the distinct points (2, m) of points (n, 2), to be drawn as large marks; None for none or more than 24."""
     _, first = np.unique(np.round(points, 4), axis=0, return_index=True)
     return points[first].T if 0 < len(first) <= _MANY else None

@@ -39,7 +39,7 @@ _EVERYWHERE = 4
 _PARTS = 2
 """Tasks of each stage, for two cores."""
 _MOST = 20_000
-"""Most orbits of a later stage: a boundary in so many cells is no curve, and its cells are left as they are."""
+"""Largest number of orbits of a later stage: a boundary in more cells is not a curve, and they stay undivided."""
 _SPREAD = even_points(20_000).T
 """Points of the unit square at which cells are measured."""
 _SEARCHES = 8
@@ -100,7 +100,13 @@ class _Piece:
 
 @dataclass(frozen=True, eq=False)
 class SectionBasins(Part[_Host]):
-    """The basins in a section of the Suslov problem, refined to the pixel, and the saddles on their boundaries."""
+    """The basins in a section of the Suslov problem, refined to the pixel, and the saddles on their boundaries.
+
+    Attributes
+    ----------
+    section : Section
+        The section, with its visible window.
+    """
 
     section: Section
 
@@ -130,19 +136,22 @@ class SectionBasins(Part[_Host]):
 
     @property
     def is_complete(self) -> bool:
-        """True if every cell is known."""
+        """True if all stages are known."""
         return self.stage == _STAGES - 1
 
     @cached_property
     def arrivals(self) -> Arrivals | None:
-        """Attractor and arrival time of each cell (n, m); coarse until all stages are known."""
+        """Attractor and arrival time of each cell (n, m); coarse until all stages are known.
+
+        None until the first stage is known, and without attractors.
+        """
         if self._what is None or self.stage < 0 or not self._what.attractors().count:
             return None
         return self.work.need(Task(_cells, self._what, self.stage))
 
     @cached_property
     def attractors(self) -> Attractors | None:
-        """The attractors of the section; None until known."""
+        """The attractors of the section; None until the first stage is known."""
         return None if self._what is None or self.stage < 0 else self._what.attractors()
 
     # ---- boundaries ---------------------------------------------------------------------------------------------
@@ -156,7 +165,7 @@ class SectionBasins(Part[_Host]):
 
     @cached_property
     def saddles(self) -> list[PeriodicOrbit]:
-        """The saddles on the boundaries."""
+        """The known saddles on the boundaries."""
         found = [self.work.need(Task(find_orbit, *search), preview=None) for search in self._searches]
         return [one.orbit for one in found if isinstance(one, ClosedOrbit)]
 
@@ -178,14 +187,14 @@ class SectionBasins(Part[_Host]):
 
     @property
     def caption(self) -> Caption | None:
-        """The caption of a section with basins; None without them."""
+        """The caption of a section with basins; None without them, and during a drag."""
         if self._what is None:
             return None
         if self.attractors is None:
             return Caption(self.work.pending_caption(), "Searching for attractors with 256 orbits.")
         largest, count = self.attractors.largest, self.attractors.count
         if largest is None:
-            return Caption("No motion returns to the section.")
+            return Caption("No recurrent motion found.")
         div = f"mean div = {digits(largest.mean, 2)} ± {digits(largest.error, 1)}"
         if not count or self.arrivals is None:
             return Caption("No attractor is visible.", f"{div}.")

@@ -45,7 +45,7 @@ def parameter_of_branch(symbols: tuple[str, ...]) -> Any:
 
 
 def end_of_branch(word: str) -> Any:
-    """Declare one end of the range of the branch."""
+    """Declare one end of the range of the branch, named by `word`: "from" or "to"."""
     return number(
         word,
         0.0,
@@ -124,7 +124,7 @@ class SectionBranch(Continuation[_Section]):
 
     @cached_property
     def ends(self) -> tuple[float, float]:
-        """The range of the parameter, within its bounds."""
+        """The range of the parameter, clipped to its bounds: around the current value if both ends are equal."""
         spec = next(one for one in specs_of(type(self.host)) if one.name == self.name)
         assert isinstance(spec, NumberSpec)
         least, most = spec.bounds
@@ -139,7 +139,7 @@ class SectionBranch(Continuation[_Section]):
 
     @cached_property
     def branch_start(self) -> BranchStart | None:
-        """The start of the branch; None without a periodic orbit."""
+        """The start of the branch; None until a periodic orbit is known."""
         if self.orbit.host.start_point is None or self.orbit.closed_orbit is None:
             return None
         low, high = self.ends
@@ -154,7 +154,7 @@ class SectionBranch(Continuation[_Section]):
 
     @property
     def orbit_points(self) -> Array | None:
-        """The points (2, m) of the periodic orbit in the picture; None without a periodic orbit."""
+        """The points (2, m) of the periodic orbit, value and coordinate; None without a periodic orbit."""
         closed = self.orbit.closed_orbit
         return None if closed is None else np.array([(self.value, point[self.side]) for point in closed.orbit.points]).T
 
@@ -185,7 +185,10 @@ class SectionBranch(Continuation[_Section]):
         return (self.ends[0], low), (self.ends[1], high)
 
     def choose(self, x: float, y: float) -> Values:
-        """Return the parameter values that show the orbit of the branch at (x, y), with the same visible range."""
+        """Return the parameter values that show the orbit of the branch at (x, y), with the same visible range.
+
+        Empty away from the branch.
+        """
         found = self.orbit_at(x, y)
         if found is None:
             return {}
@@ -201,7 +204,10 @@ class SectionBranch(Continuation[_Section]):
         }
 
     def box_window(self, corners: Corners) -> Values:
-        """Return the range that a box selects; a box around everything selects the default."""
+        """Return the range that a box selects; a box around everything selects the default.
+
+        Any other box selects nothing if it has no width or there is no branch.
+        """
         low, high = sorted((corners[0], corners[2]))
         if low <= _FARTHEST[0] and high >= _FARTHEST[1]:
             low = high = 0.0
@@ -237,7 +243,7 @@ class SectionBranch(Continuation[_Section]):
         return {} if self.orbit.is_on else {"low": self.host.low, "high": self.host.high}
 
     def adjustments(self, before: Self) -> Mapping[str, float]:
-        """Return the default range after a change of the parameter."""
+        """Return the default range after a change of the parameter, otherwise nothing."""
         return {} if self.host.over == before.host.over else {"low": 0.0, "high": 0.0}
 
 

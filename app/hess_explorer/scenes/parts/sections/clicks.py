@@ -27,7 +27,7 @@ Point = tuple[float, float]
 
 
 def orbits_spread(default: float, longest: float, most: float) -> Any:
-    """Declare the number of orbits that fill a window."""
+    """Declare the number of orbits that fill a window; its slider ends at `longest`, typed values at `most`."""
     return number(
         "n",
         default,
@@ -70,7 +70,7 @@ class _Host(Host, Protocol):
 
     @property
     def starts(self) -> str:
-        """The points of the chosen orbits."""
+        """The points where the chosen orbits start, as in a link."""
 
     @property
     def closed_orbit(self) -> ClosedOrbit | None:
@@ -88,7 +88,7 @@ class _Chosen:
     states : sequence of tuple
         States (d,) at these points.
     forbidden_cells : tuple or None
-        Chosen point of the current orbit, if no motion is possible there.
+        Chosen point of the current orbit, if no motion is possible there; otherwise None.
     """
 
     points: Sequence[Point]
@@ -103,9 +103,9 @@ class Clicks(Part[_Host]):
     Attributes
     ----------
     reason : str
-        Reason why some points have no orbit.
+        Reason why some points have no orbit, such as "no motion has this energy".
     remedy : str
-        Choices with which all points have an orbit.
+        Suggested change, after "choose".
     """
 
     reason: str
@@ -113,7 +113,7 @@ class Clicks(Part[_Host]):
 
     @property
     def _spec(self) -> Points:
-        """The parameter of the points."""
+        """The specification of the parameter `starts`."""
         return next(one for one in specs_of(type(self.host)) if isinstance(one, Points) and one.name == "starts")
 
     def corrections(self, notes: list[str]) -> Values:
@@ -141,7 +141,7 @@ class Clicks(Part[_Host]):
 
     @property
     def rings(self) -> list[Point]:
-        """The points where the chosen orbits start."""
+        """The points where the chosen orbits start; a periodic orbit replaces the current orbit, which is the last."""
         closed = self.host.closed_orbit
         return (
             [*self.selection.points]
@@ -162,15 +162,15 @@ class Clicks(Part[_Host]):
         )
 
     def add(self, x: float, y: float) -> Values:
-        """Return the starts with another orbit added at (x, y)."""
+        """Return the starts with another orbit added at (x, y), clamped to the bounds, as a parameter."""
         return {"starts": points_text([*self.selection.points, self._inside(x, y)])}
 
     def move(self, x: float, y: float) -> Values:
-        """Return the starts with the current orbit moved to (x, y)."""
+        """Return the starts with the current orbit moved to (x, y), clamped to the bounds, as a parameter."""
         return {"starts": points_text([*points_of(self.host.starts)[:-1], self._inside(x, y)])}
 
     def box_window(self, corners: tuple[float, float, float, float]) -> Values:
-        """Return the window that a box selects."""
+        """Return the window that a box selects; empty for a box without area."""
         return box_window(corners, (self._spec.low, self._spec.high))
 
     def _inside(self, x: float, y: float) -> Point:
@@ -195,14 +195,14 @@ class Clicks(Part[_Host]):
 
 
 def filled_section(state: Any, held: int, **more: Any) -> Section:
-    """Return the section of a state, with the orbits of its `clicks` and `orbits` others that fill the window.
+    """Return the section of a state with the orbits of its `clicks`, and `state.orbits` others that fill the window.
 
     Parameters
     ----------
     state : FilledState
         The state.
     held : int
-        Largest number of orbits during a drag.
+        Largest number of other orbits during a drag.
     **more
         Other arguments of `Section`.
     """

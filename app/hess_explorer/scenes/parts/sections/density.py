@@ -42,9 +42,9 @@ class SectionDensity(Part[Section]):
     is_on : bool
         True to show the density.
     kinds : int
-        Number of kinds of orbits; by default one for each direction of time.
+        Number of kinds of orbits, all forward in time; 0 for one kind for each direction of time of the section.
     kind_of : callable or None
-        `kind_of(states)` returns the kinds (k,) of orbits; by default they alternate.
+        `kind_of(states)` returns the kinds (k,), from 0, of orbits with the starts (k, d); by default they alternate.
     """
 
     is_on: bool
@@ -107,7 +107,7 @@ class SectionDensity(Part[Section]):
 
     @cached_property
     def tones(self) -> Sequence[Array]:
-        """The tones of the picture, see `views.density.tones`; empty until some crossings are known."""
+        """The tones of each kind, see `views.plane.density.tones`; empty until some crossings are known."""
         return view.tones(self.counts) if self.counts else ()
 
     @property

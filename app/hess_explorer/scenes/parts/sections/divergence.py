@@ -35,14 +35,14 @@ class Divergence(OrbitExponent):
 
     @property
     def curves(self) -> tuple[tuple[Array, Array], ...]:
-        """Times and values of the exponent and of the mean divergence; empty until both are known."""
+        """Times and values, each (n,), of the exponent and of the mean divergence; empty until both are known."""
         if self.growth is not None:
             return tuple((np.array([0.0, self.host.long]), np.full(2, rate)) for rate in self.growth)
         found, course = self.result, self.divergence
         return () if found is None or course is None else ((found.times, found.rates), (course.times, course.mean))
 
     def rate(self, i: int) -> tuple[Array, Array] | None:
-        """Return the curve of the exponent (0), or of the mean divergence (1)."""
+        """Return the curve of the exponent (0) or of the mean divergence (1); None until both are known."""
         return thin(*self.curves[i]) if self.curves else None
 
     @property

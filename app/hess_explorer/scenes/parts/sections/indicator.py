@@ -31,7 +31,7 @@ _TURNS = 300.0
 
 
 def colouring(has_density: bool = True) -> Any:
-    """Declare the choice of colours under the points of a section."""
+    """Declare the choice of colours under the points of a section; only with `has_density` it offers the density."""
     dense = "Density: a million crossings instead of the points. " if has_density else ""
     return choice(
         "Under the points",
@@ -59,11 +59,11 @@ class Indicator(Part[Section]):
 
     @cached_property
     def time(self) -> float:
-        """The time span of the motion from each cell."""
+        """The time for which the motion from each cell is followed."""
         return self.work.need(Task(time_of, self.host.poincare, _TURNS))
 
     def rows(self, plan: Plan, coarse: int = 1) -> list[Arguments]:
-        """Return the arguments of `row_of_cells` for each row; cells are as wide as `coarse` of the finest ones."""
+        """Return the arguments of `row_of_cells` for each row; cells are as wide as `coarse` cells of the plan."""
         m, n = plan.grid(CELLS)
         cells = m // coarse, n // coarse
         frame = self.host.frame
@@ -82,12 +82,12 @@ class Indicator(Part[Section]):
 
     @property
     def kinds(self) -> Array | None:
-        """Kinds of the cells (n, m), as in `megno_map`."""
+        """Kinds of the cells (n, m), as in `megno_map`; None until all coarse cells are known, and if not shown."""
         return None if self._cells is None else self._cells[0][:, 1]
 
     @property
     def caption(self) -> Caption | None:
-        """The caption of a section with MEGNO; None without it."""
+        """The caption of a section with MEGNO; None without it, and during a drag."""
         if not self.is_on or self.work.is_preview:
             return None
         if self._cells is None or self._cells[1]:

@@ -49,7 +49,7 @@ class BodyOrbit(Part[_Host]):
     Attributes
     ----------
     accuracy : callable or None
-        `accuracy()` returns its level; by default the chosen one.
+        `accuracy()` returns the level of the orbit; by default the level of the state.
     most : int
         Largest number of samples.
     max_step : float
@@ -62,7 +62,7 @@ class BodyOrbit(Part[_Host]):
 
     @property
     def orbit_task(self) -> Task[results.Orbit]:
-        """The task of its samples."""
+        """The task of the sampled orbit."""
         host = self.host
         level = self.work.level if self.accuracy is None else self.accuracy()
         step = self.max_step or None

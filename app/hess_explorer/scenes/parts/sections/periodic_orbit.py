@@ -143,7 +143,7 @@ class SectionPeriodicOrbit(Part[Section]):
 
     @property
     def manifolds(self) -> list[Manifold]:
-        """The drawn branches of the manifolds of a saddle."""
+        """The drawn branches of the manifolds of a saddle; empty until all are known."""
         return [one for one in self._branches or () if isinstance(one, Manifold)]
 
     @cached_property
@@ -163,7 +163,7 @@ class SectionPeriodicOrbit(Part[Section]):
 
     @property
     def homoclinic(self) -> list[Intersection]:
-        """The reliable crossings of the drawn manifolds of a saddle."""
+        """The reliable crossings of the drawn manifolds of a saddle; empty until all are known."""
         return [one for some in self._intersections or () for one in some if one.is_certain]
 
     @property
@@ -188,7 +188,7 @@ class SectionPeriodicOrbit(Part[Section]):
     # ---- texts --------------------------------------------------------------------------------------------------
 
     def idle_values(self) -> Mapping[str, float]:
-        """Return the length of the manifolds if it has no effect."""
+        """Return the length of the manifolds if it has no effect, otherwise nothing."""
         return {} if self.is_on or not self.host.is_exclusive else {"reach": self.reach}
 
     @property
@@ -242,7 +242,7 @@ class SectionPeriodicOrbit(Part[Section]):
             )
 
     def notes(self) -> Iterator[str]:
-        """Yield the reasons why there is no periodic orbit, or why its manifolds end."""
+        """Yield why there is no periodic orbit or why its manifolds end, and notes on their accuracy and crossings."""
         if isinstance(self._result, NotFound):
             yield self._result.reason
         reasons = {_end_reason(one) for one in self._branches or ()} - {LENGTH_REACHED}
@@ -297,7 +297,10 @@ class _Bounds(Protocol):
 
 
 def periodic_layers(bounds: Callable[[Any], _Bounds | None] = lambda s: None) -> Layers[Any]:
-    """Return the layers of the periodic orbit in a section, and of the saddles and manifolds of basin boundaries."""
+    """Return the layers of the periodic orbit in a section, and of the saddles and manifolds of basin boundaries.
+
+    `bounds(state)` returns these saddles and manifolds, or None.
+    """
 
     def orbits(s: Any) -> list[mechanics.PeriodicOrbit]:
         closed, bounding = s.periodic_orbit.closed_orbit, bounds(s)

@@ -35,7 +35,7 @@ def section_layers(*parts: str, **more: Any) -> Layers[Any]:
     *parts : str
         Names of the other parts of the state to show; by default all.
     **more
-        Other arguments of `section_plane.layers`.
+        Other arguments of `section_plane.layers`, except `own` and `others`.
     """
     parts = parts or ("megno", "density", "periodic_orbit")
 
@@ -51,7 +51,7 @@ def section_layers(*parts: str, **more: Any) -> Layers[Any]:
 
 
 def section_picture(**more: Any) -> Plot[Any]:
-    """Return the picture of a section, in which a click starts the orbit; further arguments as of `Plot`."""
+    """Return the picture of a section, in which a click starts the orbit; `more` are arguments of `Plot`."""
 
     def side(axis: int) -> Callable[[Any], tuple[float, float]]:
         return lambda s: tuple(corner[axis] for corner in s.section.frame)
@@ -70,7 +70,7 @@ def section_picture(**more: Any) -> Plot[Any]:
 
 
 def _unseen(s: Any) -> str:
-    """Return the message for a window without points when all are computed; otherwise an empty string."""
+    """Return the message for a window without points if everything is computed; otherwise an empty string."""
     low, high = np.array(s.section.frame)
     drawn = s.section.chosen_points, s.section.points(), s.section.points(False)
     if (
@@ -92,20 +92,20 @@ def filled_picture(
     over: Layers[Any] | None = None,
     **more: Any,
 ) -> Plot[Any]:
-    """Return the picture of a section filled with two kinds of orbits, in which clicks start others.
+    """Return the picture of a section filled with two kinds of orbits, in which each click starts another orbit.
 
     Parameters
     ----------
     full : tuple
-        Window of the whole section.
+        Window of the whole section, shown before the first state.
     labels : tuple of str
-        Labels of the two kinds.
+        Legend entries of the two kinds.
     under : sequence of Layer
         Layers below all others.
     between : sequence of Layer
-        Layers between the two kinds, as in `layered_section.layers`.
+        Layers above the points of both kinds and below those of the chosen orbits.
     over : sequence of Layer, optional
-        Layers of the periodic orbit.
+        Layers of the periodic orbit, above all others; by default `periodic_layers()`.
     **more
         Other arguments of `Plot`.
     """

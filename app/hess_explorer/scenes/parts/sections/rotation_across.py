@@ -54,7 +54,7 @@ class RotationAcross(Part[_Host]):
     section : Section
         The section.
     first : callable
-        `first()` returns the point of the first chosen start.
+        `first()` returns the point (l, L/G) of the first chosen start.
     about_middle : bool
         True to count turns about the centre of the window, on a line from the centre to the right; False to count them
         by the angle l, on a vertical line through the first start.
@@ -71,7 +71,7 @@ class RotationAcross(Part[_Host]):
 
     @cached_property
     def ends(self) -> Window:
-        """The ends of the line."""
+        """The ends (l, L/G) of the line: centre and right edge of the window, or its lower and upper edge."""
         (l0, x0), (l1, x1) = self.section.frame
         if not self.about_middle:
             l = self.first()[0]
@@ -129,7 +129,7 @@ class RotationAcross(Part[_Host]):
         )
 
     def compute(self, plan: Plan) -> RotationProfile:
-        """Return the rotation numbers along the line, computed at once."""
+        """Return the rotation numbers along the line for a plan, computed at once.  Raises `WorkLimit`."""
         return self._profile([(shares, task.compute()) for shares, task in self._pieces(plan)], plan)
 
     def message(self) -> str:
@@ -149,12 +149,12 @@ class RotationAcross(Part[_Host]):
         return ("L/G" if self.axis else "l"), "ρ"
 
     def chaotic_parts(self, axes: Axes) -> list[list[Array]]:
-        """Return rectangles over the chaotic parts of the line."""
+        """Return rectangles over the chaotic parts of the line, as high as the axes, as a region."""
         low, high = axes.y
         return [[np.array([[a, low], [b, low], [b, high], [a, high]])] for a, b in self.profile.chaotic_intervals]
 
     def caption(self) -> Caption:
-        """Return the caption of the picture."""
+        """Return the caption: the range of the rotation numbers and an extremum, or why there are none."""
         if not self.profile.numbers.size:
             return Caption(self.message() + "." if self._complete else self.work.pending_caption())
         rho = self.profile.numbers

@@ -26,7 +26,7 @@ from hess_mechanics.numerics.accuracy import STANDARD, Kind, Level, Plan
 from hess_mechanics.numerics.results import Array
 
 _FEW, _LEAST = 30, 20
-"""Crossings of each orbit while a slider is dragged, and until all are known; and their least number at any level."""
+"""Largest number of crossings of each orbit during a drag, and until all are known; least number at any level."""
 _ON = 1e-9
 """Largest relative distance of a start that counts as on the section."""
 _ORBITS, _MOST_STEPS = 20, 100_000
@@ -50,11 +50,14 @@ def crossings_of_each() -> Any:
 
 
 def start_on(section: PoincareSection, text: str) -> Start:
-    """Return the state (d,) at the last point in a text.  Raises `OutsideRegion` without a point or a motion there."""
+    """Return the state (d,) at the last point in a text.
+
+    Raises `OutsideRegion` if no motion crosses the section there, or the text is empty.
+    """
     states, there = section.states_at(*np.array(points_of(text)[-1:]).reshape(-1, 2).T)
     if not there.any():
         names = " and ".join(section.names)
-        raise OutsideRegion(f"No motion crosses the section at this {names}: choose another point, or a larger energy.")
+        raise OutsideRegion(f"No motion crosses the section at these {names}: choose another point or a larger energy.")
     return tuple(map(float, states[0]))
 
 
@@ -66,13 +69,16 @@ def crossings_from(
     level: Level,
     max_steps: int = _MOST_STEPS,
 ) -> OrbitBatch:
-    """Return `crossings` crossings of each orbit from some states; the kind of an orbit is its direction of time."""
+    """Return a batch with `crossings` crossings of each orbit from some states; forward orbits are of the first kind.
+
+    Raises `WorkLimit` if an orbit needs more than `max_steps` steps.
+    """
     found = section_crossings(section, starts, crossings, level, not forward, max_steps=max_steps)
     return batch_of(section, found, forward)
 
 
 def _all_over(section: Section) -> list[tuple[Start, ...]]:
-    """Return one batch of starts spread over the part of the visible window that motions cross."""
+    """Return one batch of starts spread over the part of the visible window that motions cross, or none."""
     starts = section.poincare.spread(_ORBITS, section.frame)
     return [starts] if starts else []
 
@@ -105,14 +111,14 @@ class KnownOrbits:
 
     Attributes
     ----------
-    own_batches : list of OrbitBatch or None
-        Batches of the chosen orbits; None for an unknown batch.
-    others : list of OrbitBatch or None
-        Batches of the other orbits; None for an unknown batch.
+    own_batches : list of OrbitBatch
+        Batches of the chosen orbits, one for each; None in place of an unknown batch.
+    others : list of OrbitBatch
+        Batches of the other orbits; None in place of an unknown batch.
     preview_batches : list of OrbitBatch or None
-        Fewer crossings of the other orbits, until all batches are known.
+        Batches with fewer crossings of the other orbits, until all batches are known; otherwise None.
     reason : str
-        Reason why the section is omitted, otherwise an empty string.
+        Reason why the section is omitted; otherwise an empty string.
     """
 
     own_batches: list[OrbitBatch | None]
@@ -127,7 +133,7 @@ class KnownOrbits:
 
     @property
     def batches(self) -> list[OrbitBatch]:
-        """The known batches of the other orbits."""
+        """The known batches of the other orbits, or those with fewer crossings until all are known."""
         return self.preview_batches or [batch for batch in self.others if batch is not None]
 
 
@@ -182,7 +188,7 @@ class Section(Part[_Host]):
         )
 
     def corrections(self, notes: list[str]) -> Values:
-        """Return a valid window."""
+        """Return the window with sorted corners, the whole for an invalid one."""
         return {"window": normalized_window(self.host.window)} if self.host.window else {}
 
     @property
@@ -192,7 +198,10 @@ class Section(Part[_Host]):
 
     @cached_property
     def start_point(self) -> Point | None:
-        """The point of the current orbit's start in the section or of its first crossing; None without a crossing."""
+        """The point where the current orbit starts in the section or first crosses it.
+
+        None without a crossing, or if too many steps are needed.
+        """
         start = self.starts[-1]
         try:
             return _first_point(self.poincare, start, lambda: self.work.need(self.batch((start,))))
@@ -204,7 +213,7 @@ class Section(Part[_Host]):
     def batch(
         self, starts: tuple[Start, ...], forward: bool = True, crossings: int = 0, level: Level | None = None
     ) -> Task[OrbitBatch]:
-        """Return the task of the orbits from some states, by default with the settings of the picture."""
+        """Return the task of the orbits from some states; crossings and level are by default those of the picture."""
         plan = self.work.plan(Kind.SECTION)
         how = crossings or self._count, forward, level or plan.level, self.max_steps
         return Task(self.compute, self.poincare, starts, *how)
@@ -222,7 +231,7 @@ class Section(Part[_Host]):
 
     @cached_property
     def known_orbits(self) -> KnownOrbits:
-        """The known orbits."""
+        """The known orbits; without orbits, but with a reason, if an orbit needs too many steps."""
         states = self.starts if self.host.periodic_orbit.closed_orbit is None else self.starts[:-1]
         held = self.work.is_preview
         try:
@@ -237,12 +246,12 @@ class Section(Part[_Host]):
                 known = replace(known, preview_batches=few)
         except WorkLimit:
             much = f"{self._count} crossings take an orbit more than {self.max_steps} steps here"
-            return KnownOrbits([], [], reason=f"The section is omitted: {much}: choose fewer crossings.")
+            return KnownOrbits([], [], reason=f"The section is omitted, because {much}: choose fewer crossings.")
         return known
 
     @cached_property
     def chosen_points(self) -> Array:
-        """The drawn points (n, 2) of the chosen orbits."""
+        """The drawn points (n, 2) of all chosen orbits that are known."""
         return concatenate(
             self._visible_part(orbit) for batch in self.known_orbits.chosen_batches for orbit in batch.orbits
         )
@@ -329,7 +338,7 @@ class Section(Part[_Host]):
 
 
 def section_caption(section: Section) -> Caption:
-    """Return the caption of a section: the number of crossings, or the reason why it is omitted."""
+    """Return the caption of a section: numbers of crossings and of orbits that end early, or why it is omitted."""
     if section.known_orbits.reason:
         return Caption(numbers=section.known_orbits.reason)
     reasons = [reason for batch in section.known_orbits.batches for reason in batch.reasons]

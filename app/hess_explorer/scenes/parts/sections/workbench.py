@@ -75,22 +75,22 @@ class SectionState(State, ABC):
 
     @property
     def shows_density(self) -> bool:
-        """True if the density is shown."""
+        """True if the density is shown: it is chosen, and the window shows nothing else."""
         return self.indicator == DENSITY and self.section.is_exclusive
 
     @property
     def closed_orbit(self) -> ClosedOrbit | None:
-        """The periodic orbit; None if unknown."""
+        """The periodic orbit; None if none is requested or known."""
         return self.periodic_orbit.closed_orbit
 
     @property
     def start(self) -> Start:
-        """The initial state (d,) of the orbit."""
+        """The initial state (d,) of the orbit: on the periodic orbit if it is known, otherwise the chosen one."""
         return self.chosen_start if self.closed_orbit is None else self.closed_orbit.state
 
     @property
     def duration(self) -> float:
-        """The duration of the orbit."""
+        """The duration of the orbit: one period of the periodic orbit if it is known, otherwise the time span."""
         return self.span if self.closed_orbit is None else self.closed_orbit.time
 
     @cached_property
