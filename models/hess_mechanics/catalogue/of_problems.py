@@ -88,7 +88,7 @@ _CLOUD = (
     *_TENSOR,
     with_default(known.D, 0.0),
     with_default(known.H_FREE_BALL, 2.0),
-    real("spread", "δ", 0.1, 1e-9, 1.0, "E = h(1 ± δ), or the radius of the patch."),
+    real("spread", "δ", 0.1, 1e-9, 0.999, "E = h(1 ± δ), or the radius of the patch."),
     integer(
         "patch", "p", 0, 0, 1, "1: start from a patch about the ω at the angle, with γ = e3; 0: from the whole shell."
     ),

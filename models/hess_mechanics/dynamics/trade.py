@@ -54,7 +54,7 @@ def truth_plan(kind: Kind) -> Plan:
     """Return the plan of the reference result with which the levels of a kind of computation are compared.
 
     Its tolerance is finer than that of `reference`, and rotation numbers, lines and curves have twice as many returns
-    or points.  Its level `is_perturbed`; basins and indicators then take points beside the centres of their cells.
+    or points.  Its level `is_perturbed`: basins and indicators then take other points than the centres of their cells.
 
     Parameters
     ----------

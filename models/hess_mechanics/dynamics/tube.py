@@ -14,7 +14,7 @@ error.  f′ comes from dual numbers, μ from Gershgorin's circles where f′ is
 (R. Lohner, 1987); here the number of bits is raised until the last state is known to the requested accuracy.
 
 The proof holds for the true solution from exactly these doubles as start and parameters, provided that Arb's operations
-enclose.  It says nothing about a body whose parameters are measured.
+are correct.  It says nothing about a body whose parameters are measured.
 """
 
 from __future__ import annotations
@@ -78,24 +78,24 @@ class Tube(Result):
         Name of the system.
     times : ndarray, shape (n,)
         The requested times that were reached.
-    states : tuple of tuple of Enclosure
+    states : tuple of tuple of Enclosure, shape (n, d)
         For each time, an interval for each component.
     width : float
-        Largest width of an interval, ≥ 0, relative to the size of the component.
+        Largest width of an interval, ≥ 0, relative to the scale of the component; 0 without any time.
     complete : bool
         True if all requested times were reached.
     steps : int
-        Number of steps.
+        Number of steps at this precision.
     bits : int
-        Working precision in bits.
+        Working precision, in bits, of the run that reached the most times.
     seconds : float
         Elapsed wall time, in seconds.
     variables : tuple of str, default ()
         Names of the variables.
     reached_work_limit : bool, default False
-        True if more work would have reached more times.
+        True if more work might have reached more times.
     digits : int, default 18
-        Requested number of digits, with which `labels` writes the intervals.
+        Requested number of digits; `labels` writes the intervals with three more.
     """
 
     system: str
@@ -111,12 +111,12 @@ class Tube(Result):
     digits: int = 18
 
     def labels(self) -> Labels:
-        """Return the ends of the intervals, as floats, and the intervals in decimals, labelled with time.
+        """Return the ends of the intervals, rounded to floats, and decimals that enclose them, labelled with time.
 
         Returns
         -------
         Labels
-            The lower and the upper end of each variable over the times, and both as text with all digits.
+            The lower and the upper end of each variable over the times, and both as text.
         """
         ends = {
             f"{name} {end}": (("t",), np.array([float(getattr(one[i], end)) for one in self.states]))
@@ -142,14 +142,14 @@ class ProvedOrbit(Result):
     orbit : Orbit
         The orbit.
     tube : Tube
-        The intervals that contain the true states of the same motion, at the same times.
-    right_to : float, default 1e-06
+        The intervals that contain the true states of the same motion, at the first of these times or at all.
+    right_to : float, default 1e-6
         Largest error of a component of a state that counts as right, positive.
 
     Raises
     ------
     InvalidParameter
-        If the orbit and the tube do not belong together.
+        If the orbit and the tube differ in their system or times.
     """
 
     orbit: Orbit
@@ -157,7 +157,7 @@ class ProvedOrbit(Result):
     right_to: float = 1e-6
 
     def __post_init__(self) -> None:
-        """Check that the orbit and the tube belong together."""
+        """Check that the orbit and the tube have the same system and times."""
         times = self.tube.times
         if self.orbit.system != self.tube.system or not np.array_equal(self.orbit.times[: times.size], times):
             raise InvalidParameter(
@@ -177,24 +177,24 @@ class ProvedOrbit(Result):
 
     @cached_property
     def bounds(self) -> Array:
-        """Upper bounds on the error of each component at the times of the tube, shape (m, d)."""
+        """Upper bounds on the error of each component at the m times of the tube, shape (m, d)."""
         rows = [[math.nextafter(float(most), math.inf) for _, most in sample] for sample in self._errors]
         return as_read_only(np.array(rows, float).reshape(len(rows), self.orbit.states.shape[1]))
 
     @property
     def least(self) -> float:
-        """Lower bound on the largest error of any component at these times; NaN if there is none."""
+        """Lower bound on the largest error of any component at the times of the tube; NaN if there is no time."""
         bound = max((least for sample in self._errors for least, _ in sample), default=math.nan)
         return math.nextafter(float(bound), 0.0)
 
     @property
     def largest(self) -> float:
-        """Upper bound on the largest error of any component at these times; NaN if there is none."""
+        """Upper bound on the largest error of any component at the times of the tube; NaN if there is no time."""
         return float(self.bounds.max()) if self.bounds.size else math.nan
 
     @property
     def valid_until(self) -> float:
-        """Last time up to which every state is correct to `right_to`; 0 if the first state is not."""
+        """Last time of the tube up to which all its states are correct to `right_to`; 0 if the first one is not."""
         last = 0.0
         for t, sample in zip(self.tube.times.tolist(), self._errors, strict=True):
             if max(most for _, most in sample) > Fraction(self.right_to):
@@ -244,16 +244,16 @@ def tube(
     Returns
     -------
     Tube
-        The intervals at the times that were reached.
+        The intervals at the times that were reached, perhaps none.
 
     Raises
     ------
     MissingLibrary
         If python-flint is not installed.
     InvalidParameter
-        If a number is not finite or out of range.
+        If a number is not finite or out of range, or the times are not monotonic from 0.
     WorkLimit
-        If there are too many times.
+        If there are more than 200 000 times.
 
     Examples
     --------
@@ -294,7 +294,10 @@ def tube(
 
 
 def _more_bits(walk: _Walk, digits: int, length: float, left: float) -> int:
-    """Return the bits needed for the remaining time at a walk's rate of loss, or affordable with the remaining work."""
+    """Return the bits that the whole time needs at a walk's rate of loss, or as many as the work left allows.
+
+    At most those of the walk, or 0, if another run cannot reach more.
+    """
     gone = float(abs(walk.t))
     if walk.reached_work_limit or gone == 0.0 or walk.bits >= _MOST_BITS:
         return 0
@@ -491,9 +494,9 @@ class _Walk:
         return most if most < R else None
 
     def _rate(self, box: list[ArbBall], sign: int) -> ArbBall | None:
-        """Return an upper bound on the eigenvalues of the symmetric part of ±D⁻¹ f′ D over a box, or None.
+        """Return an upper bound on the eigenvalues of the symmetric part of ±D⁻¹ f′ D over a box.
 
-        Raises `ZeroDivisionError` if a divisor may vanish.
+        None if f′ is not finite there.  Raises `ZeroDivisionError` if a divisor may vanish.
         """
         from flint import arb, arb_mat
 
@@ -575,7 +578,7 @@ def proved_orbit(
     start : sequence of float, shape (d,)
         Initial state at time 0, taken as exact.
     times : array_like, shape (n,)
-        Times, monotonic from 0 forward or backward.
+        Times, monotonic from 0 forward or backward, in units T.
     accuracy : str or Level, default "standard"
         Accuracy level of the orbit.
     right_to : float, default 1e-6
@@ -595,9 +598,9 @@ def proved_orbit(
     MissingLibrary
         If python-flint is not installed.
     InvalidParameter
-        If a number is not finite or out of range.
+        If a number is not finite or out of range, or the times are not monotonic from 0.
     WorkLimit
-        If the tube ends before its first time.
+        If the tube ends before its first time, there are more than 200 000 times, or the orbit needs too many steps.
 
     Examples
     --------

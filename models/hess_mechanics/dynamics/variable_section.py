@@ -1,7 +1,7 @@
-"""Sections of any system: a variable passes a value, two other variables are the coordinates.
+"""Sections of any system: a variable passes a value, and one or two other variables are the coordinates.
 
-The variables that are neither follow from first integrals with given values, by Newton's method.  Angles of the system
-count up to full turns.
+The remaining variables follow from first integrals with given values, by Newton's method.  Angles of the system count
+up to full turns.
 """
 
 from __future__ import annotations
@@ -26,7 +26,8 @@ _STEP = 6e-6
 """Step of central differences, relative to the size of a variable."""
 _ITERATIONS = 100
 _FAR = 10.0
-"""Start of Newton's method beyond the outermost root, in units of the example's size."""
+"""Initial value of Newton's method, of either sign, meant to lie beyond the outermost root, in units of the example's
+size."""
 _ROUNDING = 1e-13
 _NEAR = 1e-12
 _TURN = 2.0 * math.pi
@@ -49,7 +50,7 @@ class VariableSection(PoincareSection):
     dependent_variables : tuple of str
         The variables that follow from the integrals.
     integrals : tuple of (str, float)
-        Names and values of the integrals, as many as `dependent_variables`.
+        Names and values of the integrals, one for each of `dependent_variables`.
     ranges : tuple of (float, float)
         Range of each coordinate.
     sense : int, default 1
@@ -94,7 +95,7 @@ class VariableSection(PoincareSection):
 
     @property
     def surface(self) -> Plane | AnglePlane:
-        """The plane variable = value."""
+        """The plane variable = value; for an angle all such planes up to full turns."""
         if self.variable in self.system.angles:
             return AnglePlane(self._index(self.variable), self.value, self.sense)
         normal = tuple(float(name == self.variable) for name in self.system.variables)
@@ -123,7 +124,7 @@ class VariableSection(PoincareSection):
         Raises
         ------
         InvalidParameter
-            If the value is not finite.
+            If the new value of a parameter is not finite.
         """
         if name in self.system.parameters:
             return replace(self, body=self.system.at(self.parameters, **{name: value}))
@@ -160,7 +161,7 @@ class VariableSection(PoincareSection):
         Returns
         -------
         states : ndarray, shape (n, d)
-            The states.
+            The states; only those of possible points are valid.
         possible : ndarray of bool, shape (n,)
             True for points that motions cross.
         """
@@ -236,13 +237,14 @@ def variable_section(
     integrals : mapping of str to float
         Values of first integrals, by the names that the system gives them.
     surface : (str, float), optional
-        The variable that passes a value, an angle up to full turns.  By default the first variable, through 0.
+        The variable that passes a value, and this value; an angle passes it up to full turns.  By default the first
+        variable, and 0.
     coordinates : str or sequence of str, optional
         The one or two variables that are the coordinates.  By default those on which the rate of the surface's
         variable depends least; the others follow from the integrals.
     window : sequence of (float, float), optional
-        Range of each coordinate.  By default (−π, π) for an angle, otherwise (−1, 1), or as wide as the state of the
-        example.
+        Range of each coordinate.  By default (−π, π) for an angle, otherwise (−r, r), where r is 1.5 times the largest
+        |component| of the example's state, at least 1.
     sense : {1, -1}, default 1
         Direction in which the variable passes the value: increasing (1) or decreasing (−1).
 
@@ -254,7 +256,8 @@ def variable_section(
     Raises
     ------
     InvalidParameter
-        If names are not those of the system, or the number of coordinates is not 1 or 2.
+        If a name is not one of the system, the number of coordinates is not 1 or 2, the number of integrals is not that
+        of the remaining variables, or `surface`, `window` or `sense` is invalid.
 
     Examples
     --------
@@ -281,7 +284,7 @@ def variable_section(
         (variable, system.variables, "variable"),
     ):
         if name not in names:
-            raise InvalidParameter(f"{system.title} has no {what} {name}: choose one of {', '.join(names) or 'none'}.")
+            raise InvalidParameter(f"{system.title} has no {what} {name}. Allowed names: {', '.join(names) or 'none'}.")
     rest = [name for name in system.variables if name != variable]
     if coordinates is None:
         controls = _controls(system, body.parameters, variable)
@@ -318,7 +321,7 @@ def variable_section(
 
 
 def _controls(system: System, parameters: tuple[float, ...], variable: str) -> dict[str, float]:
-    """Return how much the rate of a variable depends on each variable, at the example."""
+    """Return by how much the rate of a variable changes with each variable, at the example's state."""
     state, here = np.array(system.example[0]), system.variables.index(variable)
     steps = _STEP * np.eye(state.size)
     ahead, behind = (system.rates(shifted, parameters)[:, here] for shifted in (state + steps, state - steps))

@@ -1,11 +1,11 @@
-"""Tangent dynamics: an orbit with tangent vectors, of which exponents, indicators and multipliers are read off.
+"""Tangent dynamics: an orbit with tangent vectors, which give its exponents, indicators and multipliers.
 
-V̇ = J(y(t)) V, where J is the Jacobian of the field; the solution with V(0) = 1 is the fundamental matrix.  J comes from
-differentiating the traced field and is integrated in the same Taylor steps as the orbit (`numerics.variation_kernels`),
-so V exists for every system.
+V̇ = J(y(t)) V, where J is the Jacobian of the field; the solution with V(0) = 1 is the fundamental matrix.  J is the
+derivative of the traced field, so every system has one; V is integrated in the same Taylor steps as the orbit
+(`numerics.variation_kernels`).
 
 The column along the motion needs no integration: V f(y(0)) = f(y(t)).  Unless the motion is slow at its start, only the
-d − 1 columns across f are integrated: for five variables four, which fill one vector register instead of two.
+d − 1 columns across f are integrated.  For five variables these four fill one vector register instead of two.
 """
 
 from __future__ import annotations
@@ -45,9 +45,10 @@ class Tangent:
     states : ndarray, shape (n, d)
         States of the orbit.
     vectors : ndarray, shape (n, d, k)
-        The tangent vectors, up to their removed lengths; from the unit matrix they give the fundamental matrix.
+        The tangent vectors, after their orthonormalisations up to each time; without any, from the unit matrix, the
+        fundamental matrix.
     log_growth : ndarray, shape (n, k)
-        Logarithms of the lengths that were removed from the vectors.
+        Sum of the logarithms of the lengths that these removed from each vector.
     volume : ndarray, shape (n,)
         ∫ tr J dt up to each time.
     """
@@ -60,7 +61,7 @@ class Tangent:
 
     @property
     def lengths(self) -> Array:
-        """Logarithms of the lengths of the vectors, shape (n, k)."""
+        """Logarithms of the lengths of the vectors, including the removed ones, shape (n, k)."""
         return np.asarray(self.log_growth + np.log(np.linalg.norm(self.vectors, axis=1)))
 
 
@@ -82,14 +83,14 @@ def generic_direction(size: int) -> Array:
 
 
 def flow_frame(problem: Problem, frame: Array, slow: float) -> tuple[Array, float]:
-    """Return orthonormal columns, the first one parallel to ±f(y) at the start of a motion, and the speed |f|.
+    """Return orthonormal columns, the first one along ±f(y) unless the motion is slow, and the speed |f| at its start.
 
     Parameters
     ----------
     problem : Problem
         The equations of motion and their units.
     frame : ndarray, shape (d, d)
-        Independent columns from which the others follow; all of them if |f| is at most `slow`.
+        Independent columns that are orthonormalised: after f if |f| exceeds `slow`, else alone.
     slow : float
         Smallest |f| of a moving orbit.
 
@@ -103,7 +104,7 @@ def flow_frame(problem: Problem, frame: Array, slow: float) -> tuple[Array, floa
     Raises
     ------
     InvalidParameter
-        If |f| overflows.
+        If |f| is not finite.
     """
     try:
         rate = [float(x) for x in problem.system.field(problem.states[0].tolist(), problem.parameters.tolist())]
@@ -125,7 +126,7 @@ def tangent(
     spent: int = 0,
     where: Callable[[], WorkLimit | None] | None = None,
 ) -> Tangent:
-    """Integrate the orbit from a state with tangent vectors.
+    """Return the orbit from a state with its tangent vectors, at given times.
 
     Parameters
     ----------
@@ -134,7 +135,7 @@ def tangent(
     start : ndarray, shape (d,)
         State at time 0, in scaled units.
     vectors : ndarray, shape (d, k)
-        Vectors at time 0, k = 1 or d.
+        Vectors at time 0; k is 1 or d.
     times : ndarray, shape (n,)
         Times, monotonic from 0 forward or backward, in units of 1/ν.
     level : Level
@@ -145,7 +146,7 @@ def tangent(
         True if the first of d vectors is parallel to f(y), f(y) ≠ 0.  This vector is known and never normalised; at the
         `limit` the others are made orthogonal to it.
     spent : int, default 0
-        Steps that other runs have used up.
+        Steps that other runs have taken of the allowed 2 000 000.
     where : callable, optional
         Function that returns the error of a motion that stops.  By default that of the motion from `start`.
 
@@ -156,7 +157,11 @@ def tangent(
 
     Raises
     ------
-    InvalidParameter, WorkLimit
+    InvalidParameter
+        If the motion exceeds the range of double precision.
+    WorkLimit
+        If the motion needs too many steps, or its neighbours separate beyond the range of double precision.
+    MotionEnds
         If the motion or a neighbour cannot be followed to the last time.
     """
     system, p, (d, k) = problem.system, problem.parameters, vectors.shape
@@ -204,11 +209,11 @@ def return_derivative(matrix: Array, rate: Array, gradient: Array) -> Array:
     Raises
     ------
     InvalidParameter
-        If an orbit is tangent to the surface.
+        If an orbit is tangent to the surface, or at rest on it.
     """
     across = (gradient * rate).sum(axis=-1)
     size = np.linalg.norm(gradient, axis=-1) * np.linalg.norm(rate, axis=-1)
     if not np.all(np.abs(across) > 1e-12 * size):
-        raise InvalidParameter("The orbit touches the surface here and does not cross it: choose another start.")
+        raise InvalidParameter("The orbit touches the surface here or rests on it: choose another start.")
     along = gradient[..., None, :] @ matrix / across[..., None, None]
     return np.asarray(matrix - rate[..., :, None] * along)

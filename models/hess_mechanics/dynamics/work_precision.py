@@ -37,7 +37,7 @@ SLOW_METHODS = ("DOP853", "LSODA")
 _TOLERANCES = (1e-4, 1e-7, 1e-10)
 _LONGEST_FOR_OTHERS = 150.0
 _LONGEST = 5000.0
-"""Longest time spans, in units of 1/ν: SciPy's methods and the levels integrate them in about a second."""
+"""Longest time spans of SciPy's methods and of the levels, which they integrate in about a second, in units of 1/ν."""
 _LONG_RUN = 0.1
 """A run longer than this many seconds is not repeated: disturbances are short compared with it."""
 _EVALUATIONS = 1000
@@ -57,9 +57,9 @@ class ErrorGrowth:
     errors : mapping of str to ndarray, shape (n,)
         Largest error of any variable, in units in which the state is O(1).
     pixels : mapping of str to ndarray, shape (n,)
-        Error in the pictures, in pixels.
+        Error in pixels: the larger one of the velocities' and of the other variables' picture.
     drifts : mapping of str to Mapping[str, ndarray]
-        Relative change, shape (n,), of each integral, by level and by its name.
+        Drift, shape (n,), of each integral by its name, for each level, see `drifts_along`.
     """
 
     times: Array
@@ -77,11 +77,11 @@ class WorkPoint:
     method : str
         Name of the method.
     setting : str
-        Name of the level, or tolerance.
+        Name of the level, or the tolerance, such as "1e-07".
     ms : float
         Wall time, in milliseconds.
     error : float
-        Largest error of any variable, in units in which the state is O(1).
+        Largest error of any variable at any time, in units in which the state is O(1).
     """
 
     method: str
@@ -180,7 +180,7 @@ def growth(
 
 
 def _best_of(run: Callable[[], T], repeats: int) -> tuple[float, T]:
-    """Return the milliseconds of the fastest of `repeats` runs, and the result; a long run is not repeated."""
+    """Return the milliseconds of the fastest of `repeats` runs, and the last result; a long run is not repeated."""
     best = np.inf
     for _ in range(repeats):
         if _LONG_RUN < best < np.inf:
@@ -231,7 +231,7 @@ def measure_levels(
 
 
 def longest_duration(name: str, start: Sequence[float], parameters: Sequence[float]) -> float:
-    """Return the longest time span that all levels integrate in about a second.
+    """Return the longest time span of a motion that the levels integrate in about a second.
 
     Parameters
     ----------
@@ -258,7 +258,7 @@ def longest_duration(name: str, start: Sequence[float], parameters: Sequence[flo
 def scipy_takes_long(name: str, start: Sequence[float], parameters: Sequence[float], duration: float) -> bool:
     """Return True if SciPy's methods would take long for a motion.
 
-    The decision counts steps and reads no clock, so that equal states always show the same.
+    The decision depends on the time span and the number of steps, not on a clock, so it is reproducible.
 
     Parameters
     ----------
@@ -274,7 +274,7 @@ def scipy_takes_long(name: str, start: Sequence[float], parameters: Sequence[flo
     Returns
     -------
     bool
-        True if they would.
+        True for a duration of more than 150/ν, or more than 1500 steps at the level `reference`.
 
     Raises
     ------
@@ -342,14 +342,14 @@ def measure_scipy(
 
 
 def fastest_scipy_method(points: Sequence[WorkPoint], error: float) -> WorkPoint | None:
-    """Return the fastest of SciPy's methods that is accurate enough.
+    """Return the fastest measurement of SciPy's methods that is accurate enough.
 
     Parameters
     ----------
     points : sequence of WorkPoint
         Points of `measure_scipy`.
     error : float
-        Largest error, in units in which the state is O(1).
+        Largest error that is accurate enough, in units in which the state is O(1).
 
     Returns
     -------

@@ -17,7 +17,7 @@ _LAGS = 50
 LEAST = 100
 """Minimum number of crossings."""
 _IN_A_BAND = 200
-"""Minimum number of crossings that are left of a longer series."""
+"""Minimum number of crossings of a thinned series."""
 
 
 def zero_one_test(series: Array) -> float:
@@ -29,13 +29,13 @@ def zero_one_test(series: Array) -> float:
 
     Parameters
     ----------
-    series : Array, shape (n,)
+    series : ndarray, shape (n,)
         One number for each crossing, n ≥ 100.
 
     Returns
     -------
     float
-        K in [−1, 1].
+        K in [−1, 1]; 0 for a constant series.
 
     Raises
     ------
@@ -73,7 +73,8 @@ def zero_one_test(series: Array) -> float:
 def zero_one_of_bands(series: Array) -> float:
     """Return the largest K of the 0–1 test of every number of a series, every second, every fourth and so on.
 
-    An orbit that visits narrow bands in turn is almost periodic, and K of all crossings is close to 0.
+    A chaotic orbit that visits narrow bands in turn is almost periodic, so that K of all its crossings is close to 0.
+    A series is thinned as long as at least 200 numbers are left.
 
     Parameters
     ----------

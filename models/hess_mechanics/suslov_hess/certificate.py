@@ -71,7 +71,7 @@ def statement_text(proof: Proof | EdgeProof) -> str:
         return f"Proved: {of} has exactly two limit cycles: one attracts and one repels."
     if proof.statement == NO_CYCLE:
         return f"Proved: {of} has no limit cycle."
-    return f"Undecided at {proof.bits} bits: whether {of} has limit cycles; |trace| is too close to 2."
+    return f"Undecided at {proof.bits} bits: the intervals do not tell whether {of} has limit cycles."
 
 
 def certificate(proof: Proof | EdgeProof) -> dict[str, Any]:

@@ -108,7 +108,7 @@ def start_of_track(body: HessBody, h: float, f: float, phi0: float, duration: fl
     InvalidParameter
         If a number is not finite.
     """
-    require_finite(phi0=phi0, span=duration)
+    require_finite(phi0=phi0, duration=duration)
     length = duration * body.frequency_unit
     try:
         turning: TurningPoints = turning_points(h, f)

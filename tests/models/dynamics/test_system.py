@@ -130,7 +130,7 @@ def test_a_wrong_scaling_is_refused_when_a_system_is_made(system):
     ):
         with raises(WrongScaling, match=f"^{re.escape(system.title)}: in units of time 1/ν"):
             replace(system, **wrong)
-    with raises(WrongScaling, match=f"so it is from 0 to {len(system.variables)}"):
+    with raises(WrongScaling, match=f"so choose it from 0 to {len(system.variables)}"):
         replace(system, angular_velocities=len(system.variables) + 1)
     with raises(WrongScaling, match=r"take states \(d,\) and \(d, n\)"):
         replace(system, rescale=lambda y, p, nu: (y / np.full(len(y), nu), p))
@@ -258,7 +258,7 @@ def test_a_system_of_one_variable_has_parameters_by_name_needs_no_brackets_and_h
     assert decay.at((1.0, 2.0), k=4.0).parameters == (4.0, 2.0)
     assert solve(decay.at(), 0.3, 1.0).states[-1, 0] == approx(0.5 - 0.2 * math.exp(-2.0), rel=1e-9)
     for call, words in (
-        (lambda: decay.at(q=1.0), "no parameter q: choose one of k, c"),
+        (lambda: decay.at(q=1.0), "no parameter q. Allowed names: k, c"),
         (lambda: decay.at((1.0,)), "must be finite numbers, 2 of them: k, c"),
         (lambda: decay.at(c=math.inf), "must be finite numbers"),
         (lambda: return_map(decay.at()), "one variable has no section"),

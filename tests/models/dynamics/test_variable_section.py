@@ -127,8 +127,8 @@ def test_a_uniform_rotation_passes_an_angle_once_a_turn(sense, end):
 @mark.parametrize(
     ("given", "words"),
     [
-        ({"integrals": {"L": 1.0}}, "has no integral L: choose one of E"),
-        ({"E": E, "surface": ("z", 0.0)}, "has no variable z: choose one of x, y, px, py"),
+        ({"integrals": {"L": 1.0}}, "has no integral L. Allowed names: E"),
+        ({"E": E, "surface": ("z", 0.0)}, "has no variable z. Allowed names: x, y, px, py"),
         ({"E": E, "coordinates": "y x"}, "has one or two coordinates among y, px, py"),
         ({"E": E, "coordinates": "y"}, "values of more or fewer integrals"),
         ({"E": E, "surface": "y"}, "surface = 'y' is not a sequence of 2. Write it like .'x', 1.5."),

@@ -211,7 +211,7 @@ def proved_statement(I22: float, I23: float, h: float, f: float) -> ProvedStatem
         )
     if found.statement != TWO_CYCLES:
         return ProvedStatement(
-            f"Undecided at {found.bits} bits.", f"Undecided at {found.bits} bits: |trace| is too close to 2"
+            f"Undecided at {found.bits} bits.", f"Undecided at {found.bits} bits: the intervals do not tell"
         )
     less, more = found.multipliers
     return ProvedStatement(

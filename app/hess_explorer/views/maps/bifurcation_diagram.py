@@ -133,13 +133,14 @@ def caption(h: float, f: float, theta: CircleMap | None) -> Caption:
 
     `theta` is the circle map of the torus; None on the separatrix.
     """
-    zone = (
-        "On the separatrix."
-        if theta is None
-        else {"hyperbolic": "Locked: two limit cycles.", "parabolic": "On the boundary of the Arnold tongue."}.get(
-            theta.kind, "Not locked: no limit cycle."
-        )
-    )
+    if theta is None:
+        zone = "On the separatrix."
+    elif theta.kind == "hyperbolic":
+        zone = "Locked: two limit cycles."
+    elif theta.fixed_points:
+        zone = "On the boundary of the Arnold tongue."
+    else:
+        zone = "Not locked: no limit cycle."
     rho = f", ρ = {digits(theta.rotation_number)}" if theta is not None and theta.kind == "elliptic" else ""
     return Caption(zone, f"h = {digits(h)}, f = {digits(f)}{rho}.")
 
