@@ -452,7 +452,7 @@ REFUSED = [
     ("loxodrome", {"m": -0.5}, "choose μ > 0"),
     ("hess-leak", {"I2": 2.0}, "I2 = 2 must lie between"),
     ("bridge", {"m": 4e-299}, "Choose μ.r. of at least"),
-    ("bridge", {"h": 9.975, "f": 0.0}, "h = μ.r., f = 0 is the separatrix"),
+    ("bridge", {"h": 9.975, "f": 0.0}, "h = .μ..r., f = 0 is the separatrix"),
 ]
 
 

@@ -125,7 +125,7 @@ def test_the_caption_of_the_circle_map_says_what_is_proved_when_it_is_found(I23,
 def test_what_is_not_proved_is_said():
     """a = 0, f = 0 has trace 2; beyond the edge by 1e-16 no motion has exactly the numbers in the boxes."""
     for values, words in (
-        ({"I22": 1.0, "I23": 0.0, "h": 2.0, "f": 0.0}, "Undecided at 256 bits: |trace| is too close"),
+        ({"I22": 1.0, "I23": 0.0, "h": 2.0, "f": 0.0}, "Undecided at 256 bits: the intervals do not tell"),
         ({"I22": 1.0, "I23": 0.5, "h": 0.5, "f": f_max(0.5)}, "Not proved: No motion has exactly"),
     ):
         view = View(SCENE, values, seen={"circle"})

@@ -140,7 +140,8 @@ class Regime(Result):
         Ȳ after that time: of the motion if it is periodic, otherwise the median over the ensemble.  Near 2 for regular
         motions, > 3 for chaotic ones; 0 for a motion that did not return.
     k : float
-        Largest K of the 0–1 test of every crossing, every second, every fourth and so on; NaN for fewer than 100.
+        Largest K of the 0–1 test of every crossing, every second, every fourth and so on; NaN for fewer than 100
+        crossings.
     divergence, divergence_error : float
         Mean of div ẏ and its error, in 1/T, along the motion if it is periodic, otherwise over an ensemble of orbits;
         three errors are a 99.7 % interval.  Both are 0 if `measure` is not empty or the motion did not return.

@@ -51,7 +51,7 @@ Kernel = Callable[..., Any]
 """A compiled function, see the module that makes it."""
 
 _CANCELS = 64.0 * 2.0**-52
-"""Round-off of a rate, relative to the state and the rates, from which on a moved start does not show it."""
+"""Round-off of a rate, relative to the state and the rates, above which a moved start does not show it."""
 _SAMPLES = 8
 """Number of states at which the round-off of rates is measured."""
 _DERIVING = RLock()

@@ -45,10 +45,10 @@ class Tangent:
     states : ndarray, shape (n, d)
         States of the orbit.
     vectors : ndarray, shape (n, d, k)
-        The tangent vectors, after their orthonormalisations up to each time; without any, from the unit matrix, the
-        fundamental matrix.
+        The tangent vectors, orthonormalised on the way where the limit of `tangent` required it.  If it never did, and
+        they started as the unit matrix, this is the fundamental matrix.
     log_growth : ndarray, shape (n, k)
-        Sum of the logarithms of the lengths that these removed from each vector.
+        Logarithms of the lengths that were removed from the vectors up to each time.
     volume : ndarray, shape (n,)
         ∫ tr J dt up to each time.
     """

@@ -57,7 +57,7 @@ class ErrorGrowth:
     errors : mapping of str to ndarray, shape (n,)
         Largest error of any variable, in units in which the state is O(1).
     pixels : mapping of str to ndarray, shape (n,)
-        Error in pixels: the larger one of the velocities' and of the other variables' picture.
+        Error in pixels, the larger one of two pictures: that of the velocities and that of the other variables.
     drifts : mapping of str to Mapping[str, ndarray]
         Drift, shape (n,), of each integral by its name, for each level, see `drifts_along`.
     """

@@ -134,7 +134,10 @@ class HeavyBody:
 
     @property
     def hess_a(self) -> float:
-        """The size √((a3 − a2)(a2 − a1))/a2 of the parameter a of `eq01` on the Hess manifold; 0 for other a2."""
+        """The size √((a3 − a2)(a2 − a1))/a2 of the parameter a of the reduced equations (`eq01`) on the Hess manifold.
+
+        It is 0 if a2 is not between a1 and a3.
+        """
         a1, a2, a3 = self.a
         return math.sqrt(max(0.0, (a3 - a2) * (a2 - a1))) / a2
 
@@ -195,7 +198,7 @@ class HeavyBody:
         return BodyCheck(
             False,
             None,
-            "Not a rigid body: one moment is larger than the sum of the two others. The equations are still shown.",
+            "Not a rigid body: one moment is larger than the sum of the other two. The equations are still shown.",
         )
 
 

@@ -114,7 +114,7 @@ class AngleSection(PoincareSection):
 
     @property
     def h(self) -> float:
-        """The energy E above the lowest energy of the body."""
+        """The energy above the one at which h = 0, which the subclass chooses."""
         return self.E - self._bottom
 
     @property

@@ -43,7 +43,7 @@ _MOST_LISTED = 8
 
 
 _Nearest = tuple[float, mechanics.Branch, int, float, int]
-"""Distance in pixels from a branch, the branch, indices of a segment, position on it (0 to 1), index on the orbit."""
+"""Distance in pixels from a branch, the branch, index of a segment, position on it (0 to 1), index on the orbit."""
 
 
 H_co = TypeVar("H_co", bound=HasSection, covariant=True)
@@ -238,7 +238,7 @@ class Continuation(Part[H_co]):
 
 
 def _part(begin: BranchStart, upwards: bool, k: int) -> mechanics.Branch | NotFound:
-    """Return piece k of the branch, starting to larger (`upwards`) or smaller values, or the reason why it is missing."""
+    """Return piece k of the branch that starts towards larger (`upwards`) or smaller values, or why it is missing."""
     found = begin.search.get()
     if isinstance(found, NotFound):
         return found

@@ -43,7 +43,7 @@ def free_body(k: float, I22: float, I13: float, I23: float) -> SuslovBody:
 
 
 def limits_of_k(I22: float, I13: float, I23: float) -> Mapping[str, Slider]:
-    """Return the range of the slider of k: from −2, or the least round value with I11 > 0, to 7."""
+    """Return the range of the slider of k: from −2, or a larger round value at which I11 > 0, to 7."""
     J = math.hypot(I13, I23)
     # The slider ends at −2, so −3 is low enough; −I₂₂/J may overflow.
     lowest = max(-3.0, -I22 / J) if J > 0.0 else -3.0

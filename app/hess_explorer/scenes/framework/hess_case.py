@@ -297,7 +297,7 @@ class HeavyHess:
         if abs(self.m) < self._least_weight:
             raise NoField(
                 f"μ|r| = {digits(self.m)}: without weight there is no Hess case. Choose μ|r| of at least "
-                f"{digits(self._least_weight)}, or at most −{digits(self._least_weight)}."
+                f"{digits(self._least_weight)} in absolute value."
             )
         return Bridge.of_heavy(HeavyBody.hess(self.moments, self.m))
 

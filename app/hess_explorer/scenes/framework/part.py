@@ -12,7 +12,7 @@ from hess_explorer.scenes.framework.work import Work
 from hess_mechanics.dynamics.return_map import PoincareSection
 
 Start = tuple[float, ...]
-"""The initial state of a motion."""
+"""The initial state (d,) of a motion."""
 
 
 class Host(Protocol):
@@ -55,7 +55,7 @@ class Part(Generic[H_co]):
         return self.host.work
 
     def has_result(self, name: str) -> bool:
-        """Return whether a visible picture has computed this cached property, because texts start no computation."""
+        """Return whether this cached property has been computed.  Texts ask first, so that they start no computation."""
         return name in vars(self)
 
     def corrections(self, notes: list[str]) -> Values:
@@ -63,7 +63,10 @@ class Part(Generic[H_co]):
         return {}
 
     def idle_values(self) -> Mapping[str, float]:
-        """Return the parameters without effect in this state, with the values shown by their disabled controls."""
+        """Return the parameters without effect in this state, with the values shown by their disabled controls.
+
+        May raise `ModelError`.
+        """
         return {}
 
     def meanings(self) -> Mapping[str, str]:
@@ -71,7 +74,10 @@ class Part(Generic[H_co]):
         return {}
 
     def adjustments(self, before: Self) -> Values:
-        """Return the parameter changes that keep the motion continuous after a different choice."""
+        """Return the parameter changes that keep the motion continuous after a different choice.
+
+        `before` is the same part of the previous state.  May raise `ModelError`.
+        """
         return {}
 
     def quantities(self) -> Iterable[str]:

@@ -45,7 +45,7 @@ class ClosedOrbit:
     state : tuple of float
         State (d,) at its first point.
     time : float
-        Period in time.
+        Time of one period; negative for a map backward in time.
     """
 
     orbit: PeriodicOrbit
@@ -55,7 +55,13 @@ class ClosedOrbit:
 
 @dataclass(frozen=True)
 class NotFound:
-    """The reason why there is no result."""
+    """The reason why there is no result.
+
+    Attributes
+    ----------
+    reason : str
+        A sentence for the user.
+    """
 
     reason: str
 
@@ -73,7 +79,7 @@ class Periodic(Protocol):
 
     @property
     def growth(self) -> tuple[float, float] | None:
-        """Growth rate ln|μ₁|/T and mean divergence ln|μ₁μ₂|/T of the orbit; None without an orbit."""
+        """Growth rate ln|μ₁|/T and mean divergence ln|μ₁μ₂|/T of the orbit; None until it is known."""
 
 
 @dataclass(frozen=True)
@@ -94,7 +100,19 @@ class NotPeriodic:
 
 
 def find_orbit(map_: ReturnMap, aim: Point, period: int | None, near: bool) -> ClosedOrbit | NotFound:
-    """Search for a periodic orbit near a point; return the orbit, or the reason why none was found."""
+    """Search for a periodic orbit near a point; return the orbit, or the reason why none was found.
+
+    Parameters
+    ----------
+    map_ : ReturnMap
+        The map.
+    aim : tuple of float
+        Coordinates of the point in the section.
+    period : int or None
+        Least period; None for the best one up to 12.
+    near : bool
+        True to search only from the point itself, not from later points of its orbit.
+    """
     try:
         orbit = find_periodic(map_, aim, period, _MOST, near)
         first = orbit.points[0]
@@ -110,7 +128,24 @@ def find_orbit(map_: ReturnMap, aim: Point, period: int | None, near: bool) -> C
 
 
 def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float) -> Manifold | NotFound:
-    """Return one branch of a manifold, up to the length at which its error reaches half a pixel."""
+    """Return one branch of a manifold, cut to 1, ½ or ¼ of its length so that its error stays below half a pixel.
+
+    Parameters
+    ----------
+    search : Search
+        Arguments of `find_orbit`, which must have found an orbit.
+    branch : BranchChoice
+        The branch.
+    length : float
+        Requested length, in units of the coordinates.
+    pixel : float
+        Size of a pixel, in the same units.
+
+    Returns
+    -------
+    Manifold or NotFound
+        The branch, or the reason why there is none: the orbit is not a saddle, or even ¼ is not accurate enough.
+    """
     found = Task(find_orbit, *search).get()
     assert isinstance(found, ClosedOrbit), "only a closed orbit has branches"
     index, stable, side = branch
@@ -139,7 +174,15 @@ def branch_of(search: Search, branch: BranchChoice, length: float, pixel: float)
 def crossings_between(
     search: Search, unstable: BranchChoice, stable: BranchChoice, length: float, pixel: float
 ) -> tuple[Intersection, ...]:
-    """Return the crossings of the drawn parts of two branches."""
+    """Return up to 25 crossings of the drawn parts of two branches; empty if either branch cannot be drawn.
+
+    Parameters
+    ----------
+    search, length, pixel
+        As in `branch_of`.
+    unstable, stable : BranchChoice
+        The branches.
+    """
     one, other = (Task(branch_of, search, branch, length, pixel).get() for branch in (unstable, stable))
     if isinstance(one, NotFound) or isinstance(other, NotFound):
         return ()

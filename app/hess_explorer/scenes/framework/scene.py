@@ -37,7 +37,15 @@ _INCLUDE = re.compile(r"^```\{include\} (\S+)\n```$", re.MULTILINE)
 
 
 class Preset:
-    """A named state: the differences from the scene's defaults."""
+    """A named state: the differences from the scene's defaults.
+
+    Parameters
+    ----------
+    name : str
+        Title in the menu.
+    **values : float or str
+        Values of parameters by name.
+    """
 
     def __init__(self, name: str, **values: Value) -> None:
         self.name = name
@@ -90,9 +98,9 @@ class Report:
     notes : sequence of str
         Notes on the state.
     todo : sequence of Task
-        Computations that the state still needs.
+        Background computations whose results are still missing.
     total : int
-        Number of its background computations.
+        Number of all background computations of the state, known ones included.
     summary : str
         The short status line.
     """
@@ -118,8 +126,8 @@ class State:
         Level of accuracy and cache.
     visible : frozenset of str
         Names of the visible pictures.
-    sources : dict of str
-        Columns of these pictures by data source.
+    sources : dict of str to Columns
+        Columns of these pictures by data source; filled in by `Scene.draw`.
     """
 
     work: Work = field(default_factory=Work, kw_only=True, compare=False, repr=False)
@@ -149,7 +157,7 @@ class State:
         return self.work.plan(kind, steady)
 
     def peek(self, name: str) -> Any | None:
-        """Return a cached property if a visible picture has computed it, otherwise None."""
+        """Return the value of a cached property if it has been computed, otherwise None."""
         return vars(self).get(name)
 
     def pending_caption(self, what: str = "") -> str:
@@ -168,11 +176,17 @@ class State:
         return replace(self, **typed)
 
     def valid_state(self, notes: list[str]) -> Self:
-        """Clamp the parameters to a valid state; append a note for each change."""
+        """Return the state with its parameters clamped to a valid state; append a note for each change.
+
+        May raise `ModelError` if there is no such state.
+        """
         return self.with_values({name: value for one in self.parts() for name, value in one.corrections(notes).items()})
 
     def limits(self) -> Mapping[str, Slider]:
-        """Return the ranges of sliders that depend on the state."""
+        """Return the ranges of sliders that depend on the state, by parameter; by default none.
+
+        Raises `ModelError` if they cannot be determined.
+        """
         return {}
 
     def idle_values(self) -> Mapping[str, float]:
@@ -249,7 +263,7 @@ class Scene(Generic[S]):
     essential : tuple of str
         Parameters whose controls are open; the others are folded into their groups.
     handle : str
-        Suggested first drag: an essential parameter (by default the first one) or "picture/layer".
+        Suggested first drag: a parameter (by default the first essential one) or "picture/layer".
     answers : tuple of Answer
         Sentences above the pictures: the first one that holds is shown, or else the summary.
     lead : tuple of str
@@ -318,11 +332,14 @@ class Scene(Generic[S]):
         return self._text[0]
 
     def answer(self, state: S) -> str:
-        """Return the sentence on a state.  Raises `ModelError`."""
+        """Return the sentence on a state: that of the first answer that applies, or the summary.
+
+        Raises `ModelError` if a condition does.
+        """
         return next((one.sentence for one in self.answers if one.condition(state)), self.summary)
 
     def drawing(self, name: str) -> str:
-        """Return the SVG file of an image in the Markdown text."""
+        """Return the text of an SVG file to which the Markdown text refers."""
         return Path(self.module).with_name(name).read_text(encoding="utf-8")
 
     @cached_property
@@ -331,7 +348,7 @@ class Scene(Generic[S]):
         return tuple(dict.fromkeys(replace(sign, least=None) for view in self.views for sign in view.legend))
 
     def visible_signs(self, there: Collection[Sign]) -> str:
-        """Return the indices of the visible legend entries, separated by commas."""
+        """Return the indices in `signs` of the visible legend entries, separated by commas."""
         known = {replace(sign, least=None) for sign in there}
         return ",".join(str(i) for i, sign in enumerate(self.signs) if sign in known)
 
@@ -379,13 +396,23 @@ class Scene(Generic[S]):
         return {spec.name: spec.default for spec in self.specs}
 
     def example(self, preset: Preset) -> dict[str, Value]:
-        """Return the values of a preset: all numbers and points, and the choices that any preset sets."""
+        """Return the values that a preset sets: all parameters, except choices that no preset of the scene changes."""
         given = {name for one in self.presets for name in one.values}
         plain = {one.name: one.default for one in self.specs if not isinstance(one, ChoiceSpec) or one.name in given}
         return {**plain, **preset.values}
 
     def of(self, values: Values, visible: Collection[str] = (), is_preview: bool = False) -> S:
-        """Return the state of these values, without computing anything."""
+        """Return the state of these values, without computing anything.
+
+        Parameters
+        ----------
+        values : mapping of str
+            Values of all parameters by name.
+        visible : collection of str
+            Names of the visible pictures.
+        is_preview : bool
+            True while a slider is held.
+        """
         work = Work(str(values.get("accuracy", "standard")), is_preview)
         typed: dict[str, Any] = {
             spec.name: float(values[spec.name]) if isinstance(spec, NumberSpec) else str(values[spec.name])
@@ -394,7 +421,10 @@ class Scene(Generic[S]):
         return self.state(**typed, work=work, visible=frozenset(visible))
 
     def admit(self, values: Values) -> tuple[dict[str, Value], list[str]]:
-        """Clamp the values to a valid state; return them and a note for each change."""
+        """Clamp the values to a valid state; return them and a note for each change.
+
+        If no valid state is near, they are only clamped to the bounds of each parameter.
+        """
         within: dict[str, Value] = {}
         notes: list[str] = []
         for spec in self.specs:
@@ -408,15 +438,24 @@ class Scene(Generic[S]):
         return {spec.name: cast(Value, getattr(state, spec.name)) for spec in self.specs}, notes
 
     def limits(self, values: Values) -> Mapping[str, Slider]:
-        """Return slider ranges (low, high, step) that depend on the state of admitted values."""
+        """Return slider ranges (low, high, step) that depend on the state; `values` are from `admit`.
+
+        Empty if they cannot be determined.
+        """
         return _or_nothing(lambda: self.of(values).limits())
 
     def idle_values(self, values: Values) -> Mapping[str, float]:
-        """Return the parameters without effect in a valid state, with the values that their controls show."""
+        """Return the parameters without effect in a valid state, with the values that their controls show.
+
+        Empty if they cannot be determined.
+        """
         return _or_nothing(lambda: self.of(values).idle_values())
 
     def adjustments(self, before: Values, values: Values) -> Values:
-        """Return the parameter changes that keep the motion continuous after other choices."""
+        """Return the parameter changes that keep the motion continuous after other choices.
+
+        Empty if they cannot be determined.
+        """
         return _or_nothing(lambda: self.of(values).adjustments(self.of(self.admit(before)[0])))
 
     def _meanings(self, values: Values) -> Mapping[str, str]:
@@ -430,7 +469,7 @@ class Scene(Generic[S]):
         return {name: meaning for name, meaning in {**labels, **self.of(values).meanings()}.items() if name not in idle}
 
     def transfer(self, there: Values, before: Scene[Any], values: Values) -> dict[str, Value]:
-        """Transfer changed values from another scene to parameters with the same meaning.
+        """Return values of this scene, with those changed in another scene for parameters with the same meaning.
 
         Parameters
         ----------
@@ -439,7 +478,7 @@ class Scene(Generic[S]):
         before : Scene
             The other scene.
         values : mapping of str
-            Its values; values that are impossible in this scene are not transferred.
+            Its values.  Those equal to its defaults, or out of bounds in this scene, are not transferred.
         """
         defaults, mine, its = before.defaults(), self._meanings(there), before._meanings(values)
         taken = {
@@ -453,7 +492,7 @@ class Scene(Generic[S]):
         return {**there, **taken}
 
     def compute(self, values: Values, visible: Collection[str], is_preview: bool) -> S:
-        """Compute a valid state with the results for the pictures `visible`.  Raises `ModelError`."""
+        """Return a state with the results for the pictures `visible`, see `of`.  Raises `ModelError`."""
         return self.draw(self.of(values, visible, is_preview))
 
     def draw(self, state: S) -> S:
@@ -479,7 +518,7 @@ class Scene(Generic[S]):
         )
 
     def _settle(self, state: S) -> None:
-        """Set the level of "auto" to the cheapest level with an invisible error in all visible pictures."""
+        """Set the level of "auto" to the cheapest one with an invisible error in all visible pictures, once measured."""
         if not state.work.auto or state.is_preview:
             return
         found = [
