@@ -31,7 +31,7 @@ def _with_negative_values(words: list[str]) -> list[str]:
 
 
 def parse(words: Sequence[str]) -> Options:
-    """Parse a command line; the result contains the function `run` of the command.
+    """Return the options of a command line, with the function `run` of the command.
 
     Only the module of the command is imported.  Raises `CommandError` for invalid arguments.
     """

@@ -12,7 +12,7 @@ STATIC = next(folder for folder in (_HERE / "static", _HERE.parents[1] / "static
 
 @cache
 def modules_path() -> str:
-    """Return the URL folder of the modules, relative to the page; it contains a hash of their contents."""
+    """Return the URL folder of the modules, relative to the page; its name contains a hash of modules and images."""
     digest = hashlib.sha256()
     for file in sorted([*STATIC.glob("*/*.js"), *STATIC.glob("thumbnails/*.jpg")]):
         digest.update(file.relative_to(STATIC).as_posix().encode() + b"\0" + file.read_bytes() + b"\0")

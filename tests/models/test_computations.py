@@ -10,7 +10,6 @@ import hess_mechanics as hm
 from hess_mechanics.errors import InvalidParameter
 
 SUSLOV = hm.SuslovBody(1.5, 1.0, 0.4, 0.0, 0.3, -0.5, 1.0)
-HEAVY = hm.HeavyBody.hess((1.0, 1.5, 2.0), 1.0)
 STATE = (0.8, -0.4, 0.6, 0.0, 0.8)
 
 

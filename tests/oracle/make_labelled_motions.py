@@ -29,7 +29,6 @@ if __name__ == "__main__":
 from hess_mechanics import Plane, systems
 from oracle.labelled import MOTIONS, returns_of
 
-TAU = 2.0 * pi
 
 
 # ---- integration

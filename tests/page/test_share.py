@@ -107,4 +107,4 @@ def test_a_code_holds_the_longest_link_that_it_may_and_says_so_of_a_longer_one(t
     for wrong in (text + "a", ""):
         refused = request.get(f"{tab.base}/qr.svg?text={quote(wrong)}")
         assert refused.status == 400
-        assert f"at most {MAX_LENGTH}" in refused.text() and f"{len(wrong)} characters" in refused.text()
+        assert f"at most {MAX_LENGTH}" in refused.text() and f"{len(wrong)} bytes" in refused.text()

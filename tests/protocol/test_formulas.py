@@ -36,7 +36,7 @@ def test_a_formula_is_its_coefficients():
     [
         ("g1^7", "not a whole number"),
         ("(g1*g2)^4", "degree"),
-        ("1/g1", "divides by something other than a number"),
+        ("1/g1", "divides by 0 or by something other than a number"),
         ("2^g1", "not a whole number"),
         ("g4", "not a polynomial: use numbers, g1, g2, g3"),
         ("1e9*g1", "larger than 1e"),

@@ -185,7 +185,7 @@ def test_the_browser_gets_the_columns_in_two_megabytes(count):
 def test_without_a_swarm_nothing_is_computed_or_sent():
     state, part = swarm_of("suslov-hess", swarm="1")
     assert part.motions is part.spread is part.track() is None
-    assert part.caption.numbers == part.reason == "Choose more than one body in the group Swarm."
+    assert part.caption.numbers == part.reason == "Choose more than one body in the group Swarm, with possible starts."
     # The same motion with and without beads: no other result depends on them.
     assert swarm_of("suslov-hess")[0] == state
 

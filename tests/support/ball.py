@@ -1,17 +1,18 @@
-"""The Chaplygin ball of the scenes: its equations as a 2 × 2 system solved at every call, its energy and circles."""
+"""The Chaplygin ball of the scenes: its equations as a 2 × 2 system solved at every call, its energy and crossings."""
 
-from math import atan2, hypot, pi
+from math import pi
 
 import numpy as np
 
 from hess_explorer.scenes import scenes
 from hess_mechanics.chaplygin_ball.equations import SYSTEM
-from support.mechanics import followed, scipy_crossings
+from support.diagrams import crossings
+from support.mechanics import followed
 
 
-def occupied(points, across=32):
+def occupied(points):
     """The cells of an even grid over the section that hold a point."""
-    counts, _, _ = np.histogram2d(*points.T, bins=across, range=[[-pi, pi], [0.0, pi]])
+    counts, _, _ = np.histogram2d(*points.T, bins=32, range=[[-pi, pi], [0.0, pi]])
     return set(np.flatnonzero(counts).tolist())
 
 
@@ -52,28 +53,13 @@ def divergence(body, y):
     return sum(SYSTEM.field(y + step, body.parameters)[i].imag for i, step in enumerate(steps)) / 1e-30
 
 
-def xi_of(values):
-    return np.array([values["I23"], -values["I13"]]) / hypot(values["I13"], values["I23"])
-
-
-def circle_of(values, state):
-    """The angle between ξ and γ."""
-    xi = xi_of(values)
-    return atan2(hypot(xi[0] * state[3] - xi[1] * state[2], state[4]), state[2:4] @ xi)
-
-
 def shown(value, digits=4):
     return float(f"{value:.{digits}g}")
 
 
-def upward_crossings(field, start, end, i=4, most=False):
-    """Times (n,) and states (n, 5), by SciPy, where component i, or γ3, grows through 0; the start is no crossing."""
-    return scipy_crossings(lambda y: field(0.0, y), start, lambda y: y[i], end, 1, most)
-
-
 def first_returns(values, start, count):
     """The first crossings (count, 5) of γ3 = 0 from below."""
-    return upward_crossings(rates(values), start, 40.0 * count, most=count + 1)[1][:count]
+    return crossings(rates(values), start, count)
 
 
 def angles(states):

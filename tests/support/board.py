@@ -123,7 +123,7 @@ class Screen:
     def __init__(self, name):
         self.sources = dict(empty_sources(name))
         self.ranges = {plot: list(figure.ranges) for plot, figure in plots_of(name).items()}
-        self.texts, self.verdicts, self.controls = {}, {}, {}
+        self.texts, self.controls = {}, {}
         self.fresh = {}
 
     def take(self, tree, block):
@@ -146,7 +146,6 @@ class Screen:
         self.sources.update(self.fresh)
         self.ranges.update(tree["ranges"])
         self.texts.update(texts_in(tree))
-        self.verdicts.update({name: parts["verdict"] for name, parts in tree["captions"].items()})
         self.controls.update(tree["controls"])
 
 
@@ -182,11 +181,6 @@ def flat(item):
     if isinstance(item, (list, tuple)) or (isinstance(item, np.ndarray) and item.dtype == object):
         return [value for part in item for value in flat(part)]
     return np.asarray(item).ravel().tolist()
-
-
-def said(message):
-    """The sentences of a source of texts; in a picture they are broken into lines."""
-    return [" ".join(text.split()) for text in flat(message["text"])]
 
 
 def contents(sources):

@@ -6,13 +6,13 @@ import oracle
 from support.mechanics import PROMISE
 
 
-def assert_promised(error, floor=0.0, admitted=lambda name: False, levels=PROMISE):
+def assert_promised(error, floor=0.0, admitted=lambda name: False):
     """Assert that error(level), the distance from an independent result, is within the promise of each level.
 
     floor : replaces a smaller promise where the last place of a double matters that much; say why beside it.
     admitted : admitted(level) tells whether the result itself reports the error.
     """
-    errors = {name: error(name) for name in levels}
+    errors = {name: error(name) for name in PROMISE}
     assert not {name: e for name, e in errors.items() if not (e <= max(PROMISE[name], floor) or admitted(name))}
 
 

@@ -28,7 +28,7 @@ def closed_form(one, tau):
     return centre, np.stack([np.sin(l) * np.sin(alpha), np.cos(l), np.sin(l) * np.cos(alpha)], axis=1)
 
 
-LOXODROME, HESS = scenes()["loxodrome"], scenes()["suslov-hess"]
+LOXODROME = scenes()["loxodrome"]
 
 
 def slope(values):

@@ -8,11 +8,14 @@ from pytest import mark
 from scipy.integrate import solve_ivp
 
 from hess_mechanics import LEVELS, systems
+from support.thorough import sample
 
 ROOT = Path(__file__).resolve().parents[2]
 REFERENCE = json.loads((Path(__file__).parent / "reference.json").read_text())
 SYSTEMS = systems()
+SOME = sample(SYSTEMS.values(), 2)
 every_system = mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
+some_systems = mark.parametrize("system", SOME, ids=lambda system: system.name)
 every_level = mark.parametrize("name", LEVELS)
 every_known_torus = mark.parametrize(
     "row", REFERENCE["hess_monodromy"], ids=lambda row: f"h={row['h']},f={row['f']},a={row['a']}"
@@ -27,10 +30,6 @@ EQUILIBRIA = {
     "plane-potential": ((0.0, 0.0, 0.0, 0.0, 1.0), (1.2, 1.0, 1.0, 0.8, 1.0, 0.5)),
 }
 """State and parameters of an equilibrium of each system."""
-
-
-def numbers(texts):
-    return np.array([float(text) for text in texts])
 
 
 def apart(left, right):

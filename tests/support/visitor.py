@@ -24,7 +24,7 @@ class Socket:
     """A websocket: what is said, what is read, and how it ends."""
 
     def __init__(self, connection):
-        self._connection, self._has_ended, self.bytes = connection, False, 0
+        self._connection, self._has_ended = connection, False
 
     @classmethod
     async def to(cls, base, path, headers=None, trusted=None, **given):
@@ -44,7 +44,6 @@ class Socket:
         if frame is None:
             self._has_ended = True
             raise Closed(f"{self._connection.close_code}: {self._connection.close_reason}")
-        self.bytes += len(frame)
         return frame
 
     async def end(self, timeout=60.0):

@@ -1,4 +1,4 @@
-"""How Sphinx builds the documentation: `hess-explorer docs`.  It works from a folder, without a network."""
+"""Sphinx configuration of the documentation.  `hess-explorer docs` builds it, without network access."""
 
 import inspect
 import io
@@ -52,7 +52,7 @@ def _table(*rows: Iterable[str]) -> Iterator[str]:
 
 
 def _output(words: list[str]) -> str:
-    """Return the output of a command."""
+    """Return the output of a command.  Raises `RuntimeError` if the command fails."""
     said = io.TextIOWrapper(io.BytesIO(), encoding="utf-8")
     # Discard stderr, where slow commands report their progress.
     with redirect_stdout(said), redirect_stderr(io.StringIO()) as errors:

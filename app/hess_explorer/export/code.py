@@ -25,7 +25,7 @@ def _about(address: Address) -> list[str]:
 
 
 def lines_of(address: Address) -> list[str]:
-    """Return the lines that create the state, compute and draw."""
+    """Return the lines of code that create the state, compute the data, and draw; the last line draws."""
     scene, name = address.scene, address.picture.name
     given = {spec.name: _value(spec, address.values[spec.name]) for spec in scene.specs}
     given |= {key: repr(value) for key, value in address.view_values.items()}

@@ -23,9 +23,9 @@ __all__ = ["Table", "columns_of"]
 ANGLES = ("phi", "phi_start", "theta", "psi", "delta", "l", "φ", "θ", "θ⁻", "θ⁺", "ψ", "δ", "Θ(φ)")
 """Names of columns and axes that are angles, in radians."""
 INDICES = ("part", "ring", "body")
-"""Columns that number the parts of a curve or an area, its boundary curves, 0 for the outer one, and bodies."""
+"""Index columns: part of a curve or an area and its boundary curve (0 is the outer one), from 0; body, from 1."""
 GRID = ("image", "x", "y", "dw", "dh")
-"""Columns of cells."""
+"""Columns of images: cells, lower left corner, width and height of each image."""
 
 _FRAMES = ("frames0", "frames1", "signs0", "times")
 _WIDEST = 2.001 * math.pi
@@ -117,8 +117,8 @@ class Table(Result):
         Returns
         -------
         dict of str to xarray.Dataset
-            The layers by name.  A map has the coordinates y and x.  Other layers have points along a dimension, with
-            the first column as coordinate.
+            The layers by name.  A map has the dimensions y and x.  Other layers have the dimension "point"; their
+            coordinates are the index columns and, if there are several other columns, the first of these.
 
         Raises
         ------
@@ -135,12 +135,12 @@ class Table(Result):
         return {name: _Layer(self.layer(name)).to_xarray() for name in self.layers}
 
     def labels(self) -> Labels:
-        """Return the columns as variables over the rows, for `to_pandas`.
+        """Return the columns as variables over the dimension "row", for `to_pandas`.
 
         Returns
         -------
         Labels
-            The variables by name.
+            The variables by name, without coordinates and units.
         """
         return Labels({}, {name: (("row",), column) for name, column in self.columns.items()}, {}, self.facts)
 
@@ -197,7 +197,10 @@ def columns_of(data: PictureData) -> Table:
 
 
 def angle_facts(data: PictureData) -> dict[str, dict[str, str]]:
-    """Return the fact "angles" of a table: the convention of each column of angles, by "layer.name"; or no fact."""
+    """Return the fact "angles" of a table: the convention of each column of angles, by "layer.name".
+
+    The dict is empty if there is no such column.
+    """
     axes = dict(zip("xy", data.names, strict=False))
     angles = {*ANGLES, *getattr(type(data.state), "angles", ())}
     found: dict[str, bool] = {}
@@ -215,7 +218,10 @@ def angle_facts(data: PictureData) -> dict[str, dict[str, str]]:
 
 
 def layers_of(data: PictureData) -> Sources:
-    """Return the columns by layer ("plot-layer" → "layer") or by track; clouds and swarms at the time of the link."""
+    """Return the columns by layer ("plot-layer" → "layer") or by track, without labels.
+
+    Clouds and swarms are those of the sample nearest to the time of the link.
+    """
     found: Sources = {}
     own = f"{data.picture.name}-"
     for source, columns in sorted(data.columns.items()):
@@ -261,7 +267,10 @@ def _swarm(columns: Columns, time: float) -> Columns:
 
 
 def _clouds(columns: Columns, time: float) -> Sources:
-    """Return the points of a cloud in the frame nearest to a time: u, ln|s|, sign of s and γ; or ω and γ."""
+    """Return the points of the clouds in the frame nearest to a time.
+
+    "cloud" has u, ln|s|, γ and the sign of s; "beside", if there is a second cloud, has ω and γ.
+    """
     frame = int(np.argmin(np.abs(columns["times"] - time)))
     at = float(columns["times"][frame])
 

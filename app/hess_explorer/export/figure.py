@@ -100,7 +100,7 @@ def as_figure(data: PictureData, width: float = 85.0, black: bool = False) -> Fi
     data : PictureData
         The plot and its data.
     width : float
-        Width in millimetres.
+        Width in millimetres, within `WIDTHS`.
     black : bool
         True for black on white, with lines distinguished by dashes, instead of the colours of the page.
 
@@ -205,7 +205,7 @@ def _style() -> AbstractContextManager[None]:
 
 
 def figure_bytes(figure: Figure, data: PictureData, kind: str) -> bytes:
-    """Return a figure as a file, with link, parameters and version in the metadata."""
+    """Return a figure as a PNG, SVG or PDF file, with link, parameters and version in the metadata."""
     text = data.metadata_text
     metadata: dict[str, dict[str, Any]] = {
         "png": {**data.texts},
@@ -219,7 +219,7 @@ def figure_bytes(figure: Figure, data: PictureData, kind: str) -> bytes:
 
 
 def densities(data: PictureData) -> list[tuple[CloudPlane[Any], Layer[Any]]]:
-    """Return the layers that show the density of a cloud at the current time, each with its cloud."""
+    """Return each cloud whose density the plot shows, with the layer that shows it; empty for other pictures."""
     plot = data.picture
     layers = {plot.source_of(layer): layer for layer in plot.layers} if isinstance(plot, Plot) else {}
     return [
@@ -230,7 +230,7 @@ def densities(data: PictureData) -> list[tuple[CloudPlane[Any], Layer[Any]]]:
 
 
 def _density(columns: Mapping[str, Any], t: float) -> tuple[Array, Array]:
-    """Return |s| and the density per unit of |s| of the first cloud at time t, in bins of ln|s|."""
+    """Return |s| and the density per unit of |s| of the first cloud at time t, in its nonempty bins of ln|s|."""
     if "signs0" not in columns:
         return np.empty(0), np.empty(0)
     times, (first, wide, count) = columns["times"], columns["bins"]

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 
 class Bounds(NamedTuple):
-    """Limits of a number."""
+    """Smallest and largest allowed value of a number."""
 
     low: float
     high: float
@@ -18,7 +18,17 @@ class Bounds(NamedTuple):
         return f"{self.low:g} to {self.high:g}"
 
     def require(self, thing: str, value: Any, words: str) -> None:
-        """Raise `InvalidParameter` unless the value is a number within the limits."""
+        """Raise `InvalidParameter` unless the value is a number within the limits.
+
+        Parameters
+        ----------
+        thing : str
+            Subject of the error message.
+        value : object
+            The value.
+        words : str
+            Words after the limits in the error message, such as "mm wide".
+        """
         from hess_mechanics.errors import InvalidParameter
 
         if not (isinstance(value, int | float) and self.low <= value <= self.high):
@@ -85,7 +95,7 @@ class FileRequest:
     Attributes
     ----------
     kind : str
-        Suffix of the file, without the dot.
+        Suffix of the file, a key of `FORMATS`.
     width : float
         Width of a figure or film in millimetres.
     black : bool
@@ -93,7 +103,7 @@ class FileRequest:
     seconds : float
         Duration of a film in seconds.
     loop : Loop or None
-        Settings of a film that repeats itself.
+        Settings of a film that repeats itself; None for other files.
     """
 
     kind: str = "csv"
@@ -104,5 +114,5 @@ class FileRequest:
 
 
 def formats_of(*what: str) -> tuple[str, ...]:
-    """Return the formats of the given categories."""
+    """Return the suffixes of the formats of some categories, in the order of `FORMATS`."""
     return tuple(kind for kind, one in FORMATS.items() if one.content in what)

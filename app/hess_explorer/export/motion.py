@@ -13,13 +13,13 @@ from hess_explorer.views.space.poisson_sphere import Sphere
 from hess_mechanics.numerics.results import Array
 
 _CLOSE, _AWAY = 0.01, 0.1
-"""A motion has returned within the first share of its extent, after it was further away than the second."""
+"""Distances, as fractions of the extent of a motion: it returns within the first after exceeding the second."""
 _LETTERS, _LINES = 96, 3
-"""Letters of a line below the picture; most lines of the link."""
+"""Maximum number of characters of a line below the picture, and of lines of the link."""
 
 
 def _end(data: PictureData) -> float:
-    """Return the final time of the orbit or of the clouds; 0 if nothing moves."""
+    """Return the latest final time of the orbit and the clouds; 0 if nothing moves."""
     clouds = (one["times"] for one in data.columns.values() if "frames0" in one)
     tracks = (data.columns.get("data-orbit", {}).get("t", ()), *clouds)
     return max((float(times[-1]) for times in tracks if len(times) > 1), default=0.0)
@@ -34,7 +34,7 @@ def moves(data: PictureData) -> bool:
 
 
 def film_times(data: PictureData, count: int) -> Array:
-    """Return evenly spaced times (count,) of the frames, from the start to the end of the motion."""
+    """Return evenly spaced times (count,) of the frames, from the start to the end of the motion, both included."""
     return np.linspace(0.0, _end(data), count)
 
 
@@ -59,7 +59,10 @@ def period(data: PictureData) -> float | None:
 
 
 def _first_return(times: Array, states: Array) -> float | None:
-    """Return the time at which an orbit first returns to its start in the same direction, from states (n, k)."""
+    """Return the time at which an orbit first returns to its start in the same direction, from states (n, k).
+
+    None if it does not return, or does not repeat itself afterwards.
+    """
     start, along = states[0], np.diff(states, axis=0)
     lengths = np.maximum(np.sum(along**2, axis=1), 1e-300)
     share = np.clip(np.sum((start - states[:-1]) * along, axis=1) / lengths, 0.0, 1.0)
@@ -78,14 +81,20 @@ def _first_return(times: Array, states: Array) -> float | None:
 
 
 def loop_times(data: PictureData, count: int) -> Array:
-    """Return the times (count,) of the frames: one period of the motion, or there and back, slower at both ends."""
+    """Return the times (count,) of the frames of a loop, without its end, which equals its start.
+
+    They cover one period of the motion if it has one; otherwise the motion forwards and backwards, slower at both ends.
+    """
     phase = np.arange(count) / count
     lasts = period(data)
     return lasts * phase if lasts is not None else 0.5 * _end(data) * (1.0 - np.cos(2.0 * np.pi * phase))
 
 
 def loop_lines(data: PictureData, home: str) -> list[str]:
-    """Return the caption and the link, shortened to a few lines; the metadata contain the complete link."""
+    """Return the lines below a loop: the caption, shortened to one line, and the link, shortened to `_LINES` lines.
+
+    The metadata contain the complete link.
+    """
     link = f"{home}?{data.link}"
     lines = [link[i : i + _LETTERS] for i in range(0, len(link), _LETTERS)]
     shown = lines if len(lines) <= _LINES else [*lines[: _LINES - 1], f"{lines[_LINES - 1][:-1]}…"]

@@ -34,7 +34,7 @@ class Address:
         The scene.
     picture : Picture
         The picture.
-    values : mapping of str
+    values : mapping of str to float or str
         Admitted values of the parameters.
     client : mapping of str to float
         Time and view of spheres, by key of the link.
@@ -95,7 +95,7 @@ class PictureData(Address):
 
     @property
     def facts(self) -> dict[str, Any]:
-        """The metadata that every exported file contains."""
+        """The metadata of the picture, which exported files contain."""
         return {
             "link": self.link,
             "scene": self.scene.name,
@@ -193,7 +193,7 @@ def picture_of(scene: Scene[Any], name: str) -> Picture[Any]:
 
 
 def compute(address: Address) -> PictureData:
-    """Compute a picture completely.  Raises `ModelError`."""
+    """Return a picture with complete data.  Raises `ModelError` if the state cannot be computed."""
     _, data = complete(
         address.scene, address.values, [address.picture.name], lambda state: _picture_data(address, state)
     )
@@ -203,7 +203,7 @@ def compute(address: Address) -> PictureData:
 def complete(
     scene: Scene[Any], values: Values, pictures: Collection[str], result_of: Callable[[Any], T]
 ) -> tuple[Any, T]:
-    """Compute all data of some pictures of a state.
+    """Return a state with all data of some pictures, after computing its tasks round by round.
 
     Parameters
     ----------
@@ -214,7 +214,7 @@ def complete(
     pictures : collection of str
         Names of the pictures.
     result_of : callable
-        Draws the pictures of a state and returns a result.
+        Draws the pictures of a state and returns a result; called in each round.
 
     Returns
     -------

@@ -16,7 +16,7 @@ from hess_explorer.export.picture_data import PictureData
 
 
 def as_csv(data: PictureData) -> str:
-    """Return the data as CSV, with the metadata as # comments; coordinates that a layer lacks are empty."""
+    """Return the data as CSV, with the metadata as # comments; missing and non-finite numbers are empty."""
     table = columns_of(data)
     out = io.StringIO()
     for key, value in {**_facts(data), **_besides(data)}.items():
@@ -34,7 +34,7 @@ def as_json(data: PictureData) -> str:
 
 
 def _facts(data: PictureData) -> dict[str, Any]:
-    """Return the metadata, the axes and the kinds of angles."""
+    """Return the metadata, the axes as [name, low, high], and the conventions of angles."""
     ends = () if data.axes is None else (data.axes.x, data.axes.y)
     axes = {side: [name, *map(float, range_)] for side, name, range_ in zip("xy", data.names, ends, strict=False)}
     return {**data.facts, **({"axes": axes} if axes else {}), **angle_facts(data)}

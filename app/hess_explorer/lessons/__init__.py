@@ -20,6 +20,6 @@ def package_lessons() -> Mapping[str, Lesson]:
 
 @cache
 def suggestions() -> Mapping[str, Lesson]:
-    """Return the "Try this" sections by scene, except for "Speed and accuracy" scenes."""
+    """Return the "Try this" section of each scene that has one, by scene, except for "Speed and accuracy" scenes."""
     found = {scene.name: read_suggestions(scene) for scene in scenes().values() if scene.origin is None}
     return {name: lesson for name, lesson in found.items() if lesson is not None}

@@ -31,6 +31,11 @@ def problems_in(text: str, line: int, images: Images, scene: Scene[Any] | None) 
         Receives the images of the text.
     scene : Scene or None
         The scene whose pictures the text names; None if the step has no valid state.
+
+    Yields
+    ------
+    LessonError
+        A mistake with its line in the file.
     """
     for token in strict_parser().parse(text):
         yield from _problems_of(token, line + (token.map[0] if token.map else 0), images, scene)
@@ -75,7 +80,7 @@ def _check(token: Token, at: int, images: Images, scene: Scene[Any] | None) -> N
             if scene is not None:
                 require_number(number[2], scene, at)
         elif not re.match(r"https?://[^/]", target, re.IGNORECASE):
-            ways = "https://…, ?scene=… for a state of the page, or picture/layer for what a picture shows"
+            ways = "https://…, ?scene=… for a state of the page, picture/layer, or drag:NAME for a number"
             raise LessonError(f"the link to {_short(target)} has an unknown target: write {ways}.", at)
 
 

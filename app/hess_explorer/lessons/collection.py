@@ -30,7 +30,7 @@ def read_paths(paths: Iterable[Path]) -> tuple[tuple[Lesson, ...], list[LessonEr
     Raises
     ------
     LessonError
-        If there are too many files, or a folder has none.
+        If there are more than `MAX_LESSONS` files, or a folder has none.
     """
     found = [*examine_files(files_in(paths))]
     lessons = tuple(lesson for _, lesson, mistakes in found if lesson is not None and not mistakes)
@@ -38,7 +38,7 @@ def read_paths(paths: Iterable[Path]) -> tuple[tuple[Lesson, ...], list[LessonEr
 
 
 def examine_files(files: Iterable[Path]) -> Iterator[tuple[Path, Lesson | None, list[LessonError]]]:
-    """Yield each file with its lesson, as far as it is valid, and its mistakes; names must be unique in links."""
+    """Yield each file with its lesson and its mistakes, see `examine`; a name in links that is taken is a mistake."""
     taken = dict.fromkeys(package_lessons(), "a lesson of this package")
     for file in files:
         lesson, mistakes = examine(file)
@@ -50,7 +50,7 @@ def examine_files(files: Iterable[Path]) -> Iterator[tuple[Path, Lesson | None, 
 
 
 def files_in(paths: Iterable[Path]) -> Sequence[Path]:
-    """Return the lesson files in a list of files and folders.  Raises `LessonError`."""
+    """Return the lesson files in a list of files and folders.  Raises `LessonError` as `read_paths`."""
     files = [file for path in paths for file in _files(path)]
     if len(files) > MAX_LESSONS:
         raise LessonError(f"there are {len(files)} lessons; at most {MAX_LESSONS} are allowed.", 1, str(files[-1]))

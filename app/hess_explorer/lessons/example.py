@@ -10,8 +10,8 @@ minutes: 5
 
 Words before the first step are for you: the page does not show them.
 
-Each heading with ## begins a step.  Its settings stand in a fence named step, one "name: value" in a line.  What
-follows # is a comment.  All settings but the first state may be left out.
+Each heading with ## begins a step.  Its settings stand in a fence named step, one "name: value" per line.  Text
+after # is a comment.  All settings but the first state may be left out.
 
 Check the file with `hess-explorer lesson check FILE`.
 

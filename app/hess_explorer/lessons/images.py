@@ -21,10 +21,15 @@ class ImageError(ValueError):
 class Images:
     """The images of one lesson by the target that its Markdown names, as `data:` URLs.
 
-    Attributes
+    Parameters
     ----------
     folder : Path or None
-        Folder of the lesson; None for a text without a file, which has no images.
+        Folder of the lesson; None for a text without a file, which may not have images.
+
+    Attributes
+    ----------
+    urls : dict of str to str
+        URLs of the images by target.
     """
 
     def __init__(self, folder: Path | None) -> None:
@@ -33,7 +38,7 @@ class Images:
         self.urls: dict[str, str] = {}
 
     def add(self, target: str) -> None:
-        """Read an image.  Raises `ImageError`."""
+        """Read the image file at a target and store its URL.  Raises `ImageError` if it cannot be shown."""
         raw = self._read(target)
         kind = _kind(raw)
         if kind is None:
@@ -64,7 +69,7 @@ class Images:
         except (OSError, RuntimeError, ValueError) as error:
             raise ImageError("the image cannot be read: check its name and permissions.") from error
         if len(raw) > MAX_ONE:
-            raise ImageError(f"the image has more than {MAX_ONE // 1024} kB: save it smaller.")
+            raise ImageError(f"the image has more than {MAX_ONE // 1024} kB: reduce its size.")
         return raw
 
 

@@ -14,7 +14,7 @@ TIME = "time"
 
 
 class LessonError(ModelError):
-    """A lesson file is invalid; the error names file, line, problem and remedy.
+    """A lesson file is invalid; the error message contains file, line, problem and remedy.
 
     Attributes
     ----------
@@ -22,6 +22,8 @@ class LessonError(ModelError):
         The problem and what is allowed.
     line : int
         Line of the file, from 1.
+    file : str
+        Name of the file; empty if unknown.
     """
 
     def __init__(self, message: str, line: int, file: str = "") -> None:
@@ -31,7 +33,15 @@ class LessonError(ModelError):
 
 @dataclass(frozen=True)
 class StateLink:
-    """A state of a scene: the values of all parameters, within their bounds."""
+    """A state of a scene.
+
+    Attributes
+    ----------
+    scene : str
+        Name of the scene.
+    values : mapping of str to float or str
+        Values of all parameters, within their bounds.
+    """
 
     scene: str
     values: Values
@@ -39,7 +49,17 @@ class StateLink:
 
 @dataclass(frozen=True)
 class Animation:
-    """A parameter of the scene, or `TIME`, that changes from `start` to `end` within `seconds`."""
+    """A parameter of the scene, or `TIME`, that changes from `start` to `end`.
+
+    Attributes
+    ----------
+    name : str
+        Name of the parameter, or `TIME`.
+    start, end : float
+        First and last value.
+    seconds : float
+        Duration of the change in seconds.
+    """
 
     name: str
     start: float
@@ -53,6 +73,8 @@ class HiddenLayer:
 
     Attributes
     ----------
+    picture : str
+        Name of the picture.
     source : str
         Data source of the layer in the browser.
     """
@@ -92,12 +114,20 @@ class LessonStep:
 
     Attributes
     ----------
-    text, answer : str
-        Markdown; the answer is hidden at first.
+    title, text, question, answer : str
+        Markdown; question and answer are empty for none, and the answer is hidden at first.
+    state : StateLink
+        State of the step, before its prediction is revealed.
     enlarged_picture : str
         Name of the picture to enlarge, "" for none.
+    animation : Animation or None
+        Change of a parameter or the time.
+    prediction : Prediction or None
+        Guess at a layer.
     controls : tuple of str
         Names of the parameters whose controls are beside the text.
+    hidden_layer : HiddenLayer or None
+        Layer that is not shown.
     pictures : tuple of str
         Names of the pictures that the step shows alone, over its text; empty for the whole page.
     line : int
@@ -127,8 +157,12 @@ class Lesson:
     ----------
     name : str
         Name in links.
+    title : str
+        Title in the menu.
     minutes : float
         Duration in minutes, 0 if unknown.
+    steps : tuple of LessonStep
+        The steps in their order.
     images : mapping of str to str
         URLs of the images by target.
     """

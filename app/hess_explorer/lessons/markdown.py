@@ -29,7 +29,26 @@ class BadFormula(ValueError):
 
 
 def formula(latex: str, options: Mapping[str, Any]) -> str:
-    """Return a formula as MathML; only elements of MathML are accepted, because the library does not escape text."""
+    """Return a formula as MathML.
+
+    Parameters
+    ----------
+    latex : str
+        The formula.
+    options : mapping of str
+        "display_mode": True for a formula on a line of its own.
+
+    Returns
+    -------
+    str
+        The MathML.
+
+    Raises
+    ------
+    BadFormula
+        If the formula cannot be converted, or the result has elements other than MathML: the library does not escape
+        text.
+    """
     try:
         found: str = convert(latex, display="block" if options["display_mode"] else "inline")
         parts = list(ElementTree.fromstring(found).iter())
@@ -83,7 +102,7 @@ def _image(_: object, tokens: Sequence[Token], i: int, options: object, env: Map
 
 
 def _link(renderer: Any, tokens: Sequence[Token], i: int, options: Any, env: Any) -> str:
-    """Open links to other hosts in a new tab, so that the lesson stays open; names and numbers are buttons."""
+    """Render the start of a link: a new tab for other hosts, a button for a layer or a number to drag."""
     target = str(tokens[i].attrs["href"])
     if found := LAYER.fullmatch(target) or DRAGGED.fullmatch(target):
         end = next(token for token in tokens[i:] if token.type == "link_close")
@@ -104,7 +123,7 @@ def to_html(text: str, images: Mapping[str, str] | None = None, inline: bool = F
     text : str
         The Markdown.
     images : mapping, optional
-        URLs of the images by their targets; an image without one is shown as its words.
+        URLs of the images by their targets; an image without one is shown as its alternative text.
     inline : bool
         True for text without paragraphs.
 

@@ -68,7 +68,7 @@ _Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 def read_file(path: Path) -> Lesson:
-    """Return the lesson in a file, named after the file.  Raises `LessonError`."""
+    """Return the lesson in a file, named after the file.  Raises the first `LessonError` of an invalid lesson."""
     lesson, mistakes = examine(path)
     if lesson is None or mistakes:
         raise mistakes[0]
@@ -76,7 +76,20 @@ def read_file(path: Path) -> Lesson:
 
 
 def examine(path: Path) -> tuple[Lesson | None, list[LessonError]]:
-    """Return the lesson in a file as far as it is valid, and its mistakes, at most one in the settings of a step."""
+    """Return the lesson in a file as far as it is valid, and its mistakes, at most one in the settings of a step.
+
+    Parameters
+    ----------
+    path : Path
+        Markdown file.
+
+    Returns
+    -------
+    lesson : Lesson or None
+        The lesson, without steps whose settings are invalid; None if the file cannot be read.
+    mistakes : list of LessonError
+        The mistakes; empty for a valid lesson.
+    """
     lesson = None
     try:
         lesson, mistakes = _read(_text(path), name_of(path), Images(path.parent))
@@ -106,7 +119,7 @@ def _text(path: Path) -> str:
 
 
 def read(text: str, name: str) -> Lesson:
-    """Return the lesson in a Markdown text, which has no images.  Raises `LessonError`."""
+    """Return the lesson in a Markdown text, which may not have images.  Raises the first `LessonError`."""
     lesson, mistakes = _read(text, name, Images(None))
     if mistakes:
         raise mistakes[0]
@@ -126,7 +139,7 @@ def _read(text: str, name: str, images: Images) -> tuple[Lesson, list[LessonErro
 
 
 def _facts(text: str) -> tuple[str, float]:
-    """Return the title and the minutes."""
+    """Return the title and the minutes in the front matter.  Raises `LessonError`."""
     first = next(iter(parser().parse(text)), None)
     if first is None or first.type != "front_matter":
         raise LessonError("the file must begin with front matter: the keys title and minutes between two lines ---.", 1)
@@ -178,8 +191,8 @@ class _Part:
     ----------
     line : int
         Number of its first line, from 1.
-    fences : tuple
-        Contents of its code fences named `step`.
+    fences : tuple of (str, int)
+        Content and first line of each code fence named `step`.
     """
 
     title: str
@@ -261,7 +274,7 @@ def _steps(
     Parameters
     ----------
     mistakes : list of LessonError
-        Receives the mistakes of the omitted steps.
+        Receives all mistakes; a step with invalid settings is omitted.
     """
     parts = list(_parts(text, level))
     steps: list[LessonStep] = []

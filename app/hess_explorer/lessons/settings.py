@@ -39,7 +39,7 @@ def is_number(value: Any) -> TypeGuard[float]:
 
 
 def require_keys(value: Any, what: str, allowed: Sequence[str], line: int) -> dict[str, Any]:
-    """Return a mapping that has only allowed keys."""
+    """Return the value if it is a mapping with only allowed keys."""
     if not isinstance(value, dict):
         raise LessonError(f"{what} must be a list of keys with values; the keys are {', '.join(allowed)}.", line)
     for key in value:
@@ -58,7 +58,7 @@ def _one_of(value: object, what: str, allowed: Sequence[str], line: int) -> str:
 
 
 def state_of_link(text: object, line: int) -> StateLink:
-    """Return the state of a link, each value within its bounds."""
+    """Return the state of a link; a value outside its bounds is an error."""
     link = Link(urlsplit(text).query if isinstance(text, str) else "")
     scene = scenes().get(link.texts.get("scene", ""))
     values = {} if scene is None else link.values(scene.specs)
@@ -73,7 +73,10 @@ def state_of_link(text: object, line: int) -> StateLink:
 
 
 def example_of(begins: object, before: StateLink | None, line: int) -> StateLink:
-    """Return the state of the example whose name begins with this text, in the scene of the previous step."""
+    """Return the state of the only example of a scene whose name begins with a text.
+
+    The scene is that of the state `before`, by default the first one.
+    """
     scene = next(iter(scenes().values())) if before is None else scenes()[before.scene]
     found = [one for one in scene.presets if isinstance(begins, str) and begins and one.name.startswith(begins)]
     if len(found) != 1:
@@ -121,7 +124,7 @@ def pictures_of(value: object, scene: Scene[Any], line: int) -> tuple[str, ...]:
 
 
 def controls_of(value: object, animation: Animation | None, scene: Scene[Any], line: int) -> tuple[str, ...]:
-    """Return the names of the controls beside the text; by default that of the animated parameter."""
+    """Return the names of the controls beside the text; by default that of the animated parameter, if any."""
     if value is None:
         return (animation.name,) if animation and animation.name != TIME else ()
     return _names_of(value, "controls", [spec.name for spec in scene.specs if isinstance(spec, ControlSpec)], line)
@@ -135,7 +138,7 @@ def _names_of(value: object, key: str, allowed: Sequence[str], line: int) -> tup
 
 
 def animation_of(value: object, scene: Scene[Any], line: int) -> Animation | None:
-    """Return the animation of a step, or None."""
+    """Return the animation of a step, or None without one."""
     if value is None:
         return None
     names = ("name", "from", "to", "seconds")
@@ -157,7 +160,7 @@ def animation_of(value: object, scene: Scene[Any], line: int) -> Animation | Non
 
 
 def hidden_layer_of(value: object, scene: Scene[Any], line: int) -> HiddenLayer | None:
-    """Return the layer that a step hides, or None."""
+    """Return the layer that a step hides, or None without one."""
     if value is None:
         return None
     plot, layer = _layer(require_keys(value, "hide", ("picture", "layer"), line), "hide", scene, line)
@@ -176,7 +179,7 @@ def require_number(name: str, scene: Scene[Any], line: int) -> None:
 
 
 def prediction_of(value: object, place: StateLink, line: int) -> Prediction | None:
-    """Return the prediction of a step, or None."""
+    """Return the prediction of a step, or None without one; its outcome is by default the state of the step."""
     if value is None:
         return None
     settings = require_keys(value, "predict", ("picture", "layer", "then"), line)

@@ -48,25 +48,43 @@ class BackgroundTasks:
         self.background.stop()
 
     def is_done(self, more: bool) -> bool:
-        """Return whether no task is running any more.
+        """Return whether no task is left, if `more`; otherwise whether `stop` has ended the tasks.
 
         Call this before the state is computed, because the last task may end during that computation.
 
         Parameters
         ----------
         more : bool
-            True if the state is unchanged.
+            True if the state is drawn again with new results of its tasks.
+
+        Returns
+        -------
+        bool
+            True if the tasks have ended.
         """
         self._left = self.background.backlog
         return self._left == 0 if more else self._stopped
 
     @property
     def has_updates(self) -> bool:
-        """True if a task has ended since the state was computed, or none is running or about to start."""
+        """True if a task has ended since the state was computed, or none is left; False if tasks wait for `start`."""
         return self._next is None and not 0 < self.background.backlog == self._left
 
     def follow(self, report: Report, more: bool, ended: bool) -> list[str]:
-        """Plan the tasks in a report, which `start` starts; return notes if they ended early."""
+        """Plan the tasks of a report, which `start` starts, and return notes if they ended early.
+
+        Parameters
+        ----------
+        report : Report
+            Report of the drawn state.
+        more, ended : bool
+            Argument and result of `is_done`.
+
+        Returns
+        -------
+        list of str
+            One note with the error, or with the number of drawn parts; empty if nothing is missing or tasks follow.
+        """
         left = len(report.todo)
         if not more:
             self._followed = set()

@@ -28,7 +28,7 @@ class Explorer(JSComponent):
 
     client = param.Dict(
         default={},
-        doc="URL keys that the browser keeps: t, speed, az, el, large, present, "
+        doc="URL keys that the browser keeps: t, speed, az, el, large, theme, present, "
         "embed, pictures, controls, lesson, step.",
     )
     lesson = param.String(default="", doc="JSON of the lesson in the URL, or of the introduction without a query.")
@@ -36,7 +36,8 @@ class Explorer(JSComponent):
     scenes = param.List(default=[], doc="{name, title, summary, picture, examples, origin, group} of each scene.")
     files = param.Dict(
         default={},
-        doc="formats: [kind, words, category] of each export format; width, seconds: [minimum, maximum, default].",
+        doc="program: name and version; formats: [suffix, label, category] of each format in the dialog; "
+        "width, seconds: [minimum, maximum, default].",
     )
     sheets = param.Dict(default={}, doc="Style sheets by path, see `styles`.")
 

@@ -40,7 +40,7 @@ class Connection:
         self._queue.put(partial(self._answer, Request(requested=0)))
 
     def receive(self, message: object) -> None:
-        """Queue a request from decoded, untrusted JSON."""
+        """Queue the request in decoded, untrusted JSON; ignore JSON that is not an object."""
         request = parse(message)
         if request is not None:
             self._queue.put(partial(self._answer, request))

@@ -19,7 +19,7 @@ def slider_limits(spec: NumberSpec, limits: Mapping[str, tuple[float, float, flo
 
 
 def example_of(scene: Scene[Any], values: Values) -> str:
-    """Return the name of the example that matches the values, or `CHOOSE`."""
+    """Return the name of the first example that matches the values of the enabled controls; `CHOOSE` if none does."""
     idle = scene.idle_values(values)
 
     def shown(example: Values) -> bool:
@@ -29,7 +29,7 @@ def example_of(scene: Scene[Any], values: Values) -> str:
 
 
 def show_controls(scene: Scene[Any], values: Values, wire: Wire) -> None:
-    """Send the values and ranges of all controls."""
+    """Put the values and ranges of all controls, and the matching example, into `wire`."""
     limits, idle = scene.limits(values), scene.idle_values(values)
     for spec in scene.specs:
         if isinstance(spec, NumberSpec):

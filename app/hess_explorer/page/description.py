@@ -60,7 +60,7 @@ def describe(name: str) -> str:
 
 
 def _handle(scene: Scene[Any]) -> dict[str, Any] | None:
-    """Return the suggested first drag: a control, or a layer of a picture."""
+    """Return the suggested first drag: a control, or a layer of a picture; None without either."""
     picture, _, layer = scene.handle.partition("/")
     if not layer:
         name = scene.handle or next(iter(scene.essential), "")

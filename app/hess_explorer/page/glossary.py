@@ -14,7 +14,7 @@ _ENTRY = re.compile(r"^- \*\*(.+?)\*\*: (.+?)(?=\n- |\Z)", re.MULTILINE | re.DOT
 
 @cache
 def glossary() -> Mapping[str, str]:
-    """Return the meaning of each term, in lower case."""
+    """Return the meaning of each term, by the term in lower case."""
     text = Path(__file__).with_name("glossary.md").read_text(encoding="utf-8").strip()
     return {
         name.lower(): " ".join(meaning.split()) for names, meaning in _ENTRY.findall(text) for name in names.split(", ")

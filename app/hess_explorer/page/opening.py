@@ -29,7 +29,7 @@ class Opening:
     ----------
     scene : Scene
         The initial scene.
-    values : mapping of str
+    values : mapping of str to float or str
         Values of its parameters.
     notes : list of str
         Corrections of the link.
@@ -37,10 +37,10 @@ class Opening:
         Available lessons by name.
     reading : Lesson or None
         The open lesson.
-    pictures : tuple of str
+    pictures : collection of str
         Names of the visible pictures.
-    client : mapping of str
-        URL keys that the browser keeps.
+    client : dict of str to str
+        Values of the URL keys that the browser keeps.
     """
 
     scene: Scene[Any]
@@ -53,7 +53,7 @@ class Opening:
 
 
 def query_of(arguments: Mapping[str, Iterable[bytes]]) -> str:
-    """Return the query of a request."""
+    """Return the query string of the decoded arguments of an HTTP request, by name."""
     return urlencode([(name, one.decode("utf-8", "replace")) for name, given in arguments.items() for one in given])
 
 
@@ -102,7 +102,7 @@ def opening(query: str, own: Sequence[Lesson] = (), *, lenient: bool = True) -> 
         "step": str(at) if reading else "",
     }
     theme = str(link.value(THEME))
-    # The URL has no parameter for an empty text.
+    # The browser writes no URL key for an empty text.
     client["theme"] = "" if theme == THEME.default else theme
     client |= {spec.name: str(link.value(spec)).strip("0") for spec in (PRESENT, EMBED)}
     # An empty list stands for the default.

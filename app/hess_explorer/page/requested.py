@@ -19,11 +19,18 @@ def scene_and_values(link: Link, here: str) -> tuple[Scene[Any], dict[str, Value
 class RequestedState:
     """The requested scene and values, each value within its bounds; the scene checks their combination.
 
+    Parameters
+    ----------
+    scene, values, notes
+        Initial values of the attributes; a parameter without a value has its default.
+
     Attributes
     ----------
     scene : Scene
         The scene.
-    values : dict of str
+    specs : dict of str to Spec
+        Parameters of the scene by name.
+    values : dict of str to float or str
         Values of its parameters.
     notes : list of str
         Notes on corrected values of the last change.
@@ -69,7 +76,7 @@ class RequestedState:
         self.carried = carried
 
     def restore(self, query: str) -> None:
-        """Go to the state of a link, or of an undo step."""
+        """Go to the state of a query, from a link or an undo step, and note its corrections."""
         link = Link(query)
         scene, values = scene_and_values(link, self.scene.name)
         self.go_to(StateLink(scene.name, values))

@@ -49,6 +49,17 @@ class Session:
         Available lessons by name.
     pictures : collection of str
         Visible pictures, until the browser reports which are in the viewport.
+
+    Attributes
+    ----------
+    requested : RequestedState
+        The requested state.
+    values : mapping of str to float or str
+        Admitted values of the last state; empty before the first one.
+    wire : Wire
+        The changes that the next response will contain.
+    is_new : bool
+        True if the last requested state was drawn anew; False if it was already drawn, or only got new results.
     """
 
     def __init__(
@@ -69,13 +80,12 @@ class Session:
         self._in_sight = pictures
         self._held = False
         self._number = 0
-        # True if the last request changed the state, False if it repeated the current one.
         self.is_new = False
         self.values: Values = {}
-        # Scene, requested values, notes and pictures of the drawn state; None if nothing valid is drawn.
+        # Scene, requested values and notes of the drawn state; None before the first one and after an unexpected error.
         self._drawn: tuple[str, Values, list[str]] | None = None
         self._drawn_pictures: Collection[str] = ()
-        # Names of the values that the model has limited.
+        # Names of the values that the scene has limited.
         self._limited: set[str] = set()
         # True if a control shows a value other than that of the state.
         self._mistaken = False
@@ -98,7 +108,10 @@ class Session:
         return self._tasks.background
 
     def answer(self, request: Request) -> Response:
-        """Process a request and return the response, which contains a state if the request asked for one."""
+        """Process a request and return the response, which contains a state if the request asked for one.
+
+        Raises `ClientGone` if the page has closed meanwhile; the page shows any other error.
+        """
         scene = self.scene
         try:
             # `hess_mechanics` checks its results for overflow itself, so NumPy's warnings would be noise.
@@ -150,7 +163,7 @@ class Session:
         return ""
 
     def _apply(self, request: Request) -> None:
-        """Update the requested state; clicks refer to the current state."""
+        """Update the requested state; clicks refer to the drawn state."""
         wanted, scene = self.requested, self.scene
         if request.restore is not None:
             wanted.restore(request.restore)

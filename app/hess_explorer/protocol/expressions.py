@@ -17,7 +17,7 @@ from typing import Any
 from simpleeval import InvalidExpression, SimpleEval
 
 MAX_LENGTH = 100
-"""Maximum length of an expression, in characters."""
+"""Maximum length of an expression in characters, after `to_python`."""
 
 FUNCTIONS: Mapping[str, Callable[..., float]] = {
     name: getattr(math, name)
@@ -43,7 +43,7 @@ _TEXT = re.compile(
 
 
 class NotANumber(ValueError):
-    """The text is not a number; the message lists the accepted forms."""
+    """The text has no finite value; the message contains the reason and a remedy."""
 
 
 class Unreadable(Exception):
@@ -51,7 +51,7 @@ class Unreadable(Exception):
 
 
 def to_python(text: str) -> str:
-    """Translate an expression to Python: typographic signs to ASCII, "^" to "**"."""
+    """Return an expression in Python: without surrounding spaces, "−" as "-", "·" as "*", "^" as "**"."""
     return text.strip().replace("−", "-").replace("^", "**").replace("·", "*")
 
 
@@ -61,9 +61,28 @@ def calculate(
     names: Mapping[str, Any],
     functions: Mapping[str, Callable[..., Any]],
 ) -> Any:
-    """Evaluate an expression of numbers, names, operators and functions, without running other code.
+    """Return the value of an expression of numbers, names, operators and functions, without running other code.
 
-    Raises `Unreadable` for other expressions, and any `ArithmeticError` and `ValueError` of operators and functions.
+    Parameters
+    ----------
+    text : str
+        The expression, see `to_python`.
+    operators : mapping of type to callable
+        Functions of the allowed operators, by the classes of `ast`.
+    names, functions : mapping of str
+        Allowed names and functions.
+
+    Returns
+    -------
+    object
+        The value, of any type.
+
+    Raises
+    ------
+    Unreadable
+        If the text is not such an expression.
+    ArithmeticError, ValueError
+        As raised by operators and functions.
     """
     evaluator = SimpleEval(operators=dict(operators), functions=dict(functions), names=dict(names))
     evaluator.nodes = {kind: evaluator.nodes[kind] for kind in _KINDS}

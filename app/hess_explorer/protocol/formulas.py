@@ -16,7 +16,7 @@ from hess_explorer.protocol.expressions import Unreadable, calculate, to_python
 from hess_mechanics.errors import InvalidParameter
 
 MAX_LENGTH = 200
-"""Maximum length of a formula, in characters."""
+"""Maximum length of a formula in characters, after its translation to Python."""
 _DEGREE = 6
 _LARGEST = 1e6
 _NAMES = ("g1", "g2", "g3")
@@ -28,16 +28,16 @@ Exponents = tuple[int, int, int]
 
 
 class _Terms(dict[Exponents, Any]):
-    """The coefficient of each product of powers of g1, g2, g3."""
+    """Coefficients of a polynomial in three variables: g1, g2, g3, or cos Ωt, sin Ωt, Ωt, by their exponents."""
 
     def add(self, exponents: Exponents, value: Any) -> None:
-        """Add to a coefficient."""
+        """Add a value to the coefficient of the exponents."""
         self[exponents] = self.get(exponents, 0.0) + value
 
 
 _PHASE = _Terms({(0, 0, 1): 1.0})
 _TURN = _Terms({(1, 0, 0): 1.0, (0, 1, 0): 1j})
-"""cos Ωt + i sin Ωt, whose n-th power has the real part cos nΩt and the imaginary part sin nΩt."""
+"""The polynomial cos Ωt + i sin Ωt, whose n-th power has the real part cos nΩt and the imaginary part sin nΩt."""
 
 
 def _of(x: Any) -> _Terms:
@@ -65,7 +65,7 @@ def _product(a: Any, b: Any) -> _Terms:
 def _quotient(a: Any, b: Any) -> _Terms:
     divisor = _of(b)
     if set(divisor) != {(0, 0, 0)} or divisor[0, 0, 0] == 0.0:
-        raise InvalidParameter("The formula divides by something other than a number: write a polynomial.")
+        raise InvalidParameter("The formula divides by 0 or by something other than a number: write a polynomial.")
     return _product(a, 1.0 / divisor[0, 0, 0])
 
 
@@ -106,7 +106,7 @@ def polynomial(text: str) -> dict[Exponents, float]:
     Raises
     ------
     InvalidParameter
-        If the text is too long, or not a polynomial of degree 6 or less with coefficients up to 1e6.
+        If the text is too long, or not a polynomial of degree 6 or less with coefficients of magnitude up to 1e6.
 
     Examples
     --------
@@ -121,7 +121,7 @@ def polynomial(text: str) -> dict[Exponents, float]:
 
 
 def drive(text: str) -> dict[Exponents, float]:
-    """Return the coefficients of a polynomial in cos(n*W*t) and sin(n*W*t), by exponents of cos Ωt and sin Ωt.
+    """Return a polynomial in cos(n*W*t) and sin(n*W*t) as coefficients by the exponents of cos Ωt and sin Ωt.
 
     Parameters
     ----------
@@ -131,12 +131,12 @@ def drive(text: str) -> dict[Exponents, float]:
     Returns
     -------
     dict
-        Nonzero coefficients, without the constant, by the exponents of cos Ωt and sin Ωt, and 0.
+        Nonzero coefficients, without the constant, by (exponent of cos Ωt, exponent of sin Ωt, 0).
 
     Raises
     ------
     InvalidParameter
-        If the text is too long, or not such a polynomial of degree 6 or less with coefficients up to 1e6.
+        If the text is too long, or not such a polynomial of degree 6 or less with coefficients of magnitude up to 1e6.
 
     Examples
     --------
@@ -171,7 +171,7 @@ def _harmonic(angle: Any, part: str) -> _Terms:
 def _read(
     plain: str, allowed: re.Pattern[str], names: Mapping[str, Any], functions: Mapping[str, Any], kind: str
 ) -> dict[Exponents, float]:
-    """Return the coefficients of a Python expression.  Raises `InvalidParameter`."""
+    """Return the nonzero coefficients of a Python expression, without the constant.  Raises `InvalidParameter`."""
     if len(plain) > MAX_LENGTH:
         raise InvalidParameter(f"The formula is longer than {MAX_LENGTH} characters: shorten it.")
     if not plain:

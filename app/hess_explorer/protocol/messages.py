@@ -15,7 +15,7 @@ A request is a text frame of JSON.  The key "requested": n asks for the state af
 The request `ALIVE` is answered with an empty text frame, even while a state is being computed.
 
 Any other response is one binary frame: the lengths of head and block (32 bits each, little endian), the head, the
-block.  The head is the JSON of an `Response`.  "page/websocket.js" decodes the frame.
+block.  The head is the JSON of a `Response` without its block and empty fields.  "page/websocket.js" decodes the frame.
 """
 
 from __future__ import annotations
@@ -36,7 +36,15 @@ ALIVE = {"alive": True}
 
 @dataclass(frozen=True)
 class PicturePoint:
-    """A point in a picture, with finite coordinates."""
+    """A point in a picture, with finite coordinates.
+
+    Attributes
+    ----------
+    picture : str
+        Name of the picture.
+    x, y : float
+        Coordinates on the axes of the picture.
+    """
 
     picture: str
     x: float
@@ -45,7 +53,15 @@ class PicturePoint:
 
 @dataclass(frozen=True)
 class PictureBox:
-    """A box in a picture, with finite corners (x0, y0, x1, y1)."""
+    """A box in a picture, with finite coordinates.
+
+    Attributes
+    ----------
+    picture : str
+        Name of the picture.
+    corners : tuple of float
+        Opposite corners (x0, y0, x1, y1), on the axes of the picture.
+    """
 
     picture: str
     corners: tuple[float, float, float, float]
@@ -53,7 +69,17 @@ class PictureBox:
 
 @dataclass(frozen=True)
 class StepChoice:
-    """A step of a lesson, or of the suggestions of a scene."""
+    """A step of a lesson, or of the suggestions of a scene.
+
+    Attributes
+    ----------
+    lesson : str
+        Name of the lesson or scene.
+    number : int
+        Index of the step, from 0; not checked.
+    revealed : bool
+        True for the state in which the prediction of the step is revealed.
+    """
 
     lesson: str
     number: int
@@ -62,7 +88,7 @@ class StepChoice:
 
 @dataclass(frozen=True)
 class Request:
-    """A request for a state, with the fields described above; a missing or invalid field has its default."""
+    """A request with the keys that the module describes as attributes; a missing or invalid key has its default."""
 
     requested: int | None = None
     restore: str | None = None
@@ -83,7 +109,7 @@ class Request:
 
 
 def parse(message: Any) -> Request | None:
-    """Return the request that decoded JSON contains, or None if it is not a request."""
+    """Return the request in decoded JSON; None if the JSON is not an object."""
     if not isinstance(message, dict):
         return None
 
@@ -150,7 +176,7 @@ class StateResponse:
     Attributes
     ----------
     number : int
-        Index of the state in the session.
+        Number of the state in the session, from 1.
     answers : int
         Value of "requested" in the request.
     query : str
@@ -160,7 +186,7 @@ class StateResponse:
     scene : str
         Name of the scene.
     progress : tuple of int or None
-        Background tasks (done, total) while they are running.
+        Background tasks (done, total) while they are running, otherwise None.
     """
 
     number: int
@@ -180,7 +206,7 @@ class Response:
     scene, lesson : str
         Descriptions as JSON; empty for none.
     state : StateResponse or None
-        The state.
+        The state; None if none was requested.
     block : bytes
         Arrays of the state.
     show : str

@@ -33,7 +33,10 @@ class NumberSpec(Parameter):
     """A numeric parameter; its slider covers `softbounds`, and typed values may lie anywhere within `bounds`."""
 
     def read(self, raw: Value) -> tuple[float, str | None]:
-        """Return the number in an untrusted text, clamped to `bounds`, and a note if it was changed."""
+        """Return the number in an untrusted text, and a note if it was changed.
+
+        The number is clamped to `bounds`; a text that is not a finite number gives the default.
+        """
         try:
             value = float(raw)
         except (ValueError, OverflowError):
@@ -49,7 +52,23 @@ class NumberSpec(Parameter):
 
 @dataclass(frozen=True)
 class ChoiceSpec:
-    """One of a fixed list of names."""
+    """A parameter whose value is one of a fixed list of names.
+
+    Attributes
+    ----------
+    name : str
+        Key in links.
+    label : str
+        Label of the control.
+    options : tuple of str
+        Allowed values.
+    default : str
+        Default value.
+    doc : str
+        Meaning, in a sentence.
+    group : str
+        Group of controls.
+    """
 
     name: str
     label: str
@@ -59,9 +78,9 @@ class ChoiceSpec:
     group: Group | Literal["Swarm", "Chart"] = "Computation"
 
     def read(self, raw: Value) -> tuple[str, str | None]:
-        """Return the option of that name; otherwise the default and a note, which does not quote the text.
+        """Return the option of that name and None; otherwise the default and a note.
 
-        The text is untrusted.
+        The note does not quote the text, which is untrusted.
         """
         if raw in self.options:
             return str(raw), None
@@ -70,10 +89,12 @@ class ChoiceSpec:
 
 @dataclass(frozen=True)
 class Formula:
-    """A formula as a text.
+    """A parameter whose value is a formula as a text.
 
     Attributes
     ----------
+    name, label, default, doc, group
+        As in `ChoiceSpec`.
     parse : callable
         Parses the formula; raises `InvalidParameter` for an invalid text.
     """
@@ -101,10 +122,12 @@ class Points:
 
     Attributes
     ----------
+    name, label, default
+        As in `ChoiceSpec`.
     most : int
         Maximum number of points.
-    low, high : tuple
-        Corners of the rectangle that contains them.
+    low, high : tuple of float
+        Corners (x, y) of the rectangle that contains them, bounds included.
     """
 
     name: str
@@ -115,7 +138,10 @@ class Points:
     default: str = ""
 
     def read(self, raw: Value) -> tuple[str, str | None]:
-        """Return the last `most` points as a text, and a note if the text was changed."""
+        """Return the last `most` points as a text, and a note if others were dropped.
+
+        For an invalid text, or a point outside the rectangle, return the default and a note.
+        """
         text = str(raw)
         try:
             pairs = [tuple(map(float, pair.split(","))) for pair in text.split(";") if pair]
@@ -135,7 +161,15 @@ class Points:
 
 @dataclass(frozen=True)
 class Names:
-    """At most `most` names from a fixed list, as a text "a,b"; they have no control."""
+    """At most `most` names from a fixed list, as a text "a,b"; they have no control.
+
+    Attributes
+    ----------
+    name, label, options, default
+        As in `ChoiceSpec`.
+    most : int
+        Maximum number of names.
+    """
 
     name: str
     label: str
@@ -146,7 +180,7 @@ class Names:
     def read(self, raw: Value) -> tuple[str, str | None]:
         """Return the first `most` known names without duplicates, and a note if a name was dropped.
 
-        Without any known name, return the default.
+        Without any known name, return the default; for an empty text, return "".
         """
         names = list(dict.fromkeys(name for name in str(raw).split(",") if name))
         known = [name for name in names if name in self.options]
@@ -159,12 +193,12 @@ class Names:
 
 
 def points_text(points: Sequence[tuple[float, ...]]) -> str:
-    """Return the points as a text "x,y;x,y"."""
+    """Return the points as a text "x,y;x,y", with up to 10 significant digits."""
     return ";".join(",".join(f"{value:.10g}" for value in point) for point in points)
 
 
 def points_of(text: Value) -> list[tuple[float, float]]:
-    """Return the points of a validated text."""
+    """Return the points (x, y) of a text that `Points.read` has returned."""
     pairs = (pair.split(",") for pair in str(text).split(";") if pair)
     return [(float(x), float(y)) for x, y in pairs]
 
@@ -214,7 +248,7 @@ def refusal(note: str) -> str:
 
 
 def query_in(link: str) -> str:
-    """Return the query of a link, which may be a full URL or only the part after "?"."""
+    """Return the query of a link, which may be a full URL or its query, with or without "?"."""
     parts = urlsplit(link)
     return parts.query if parts.scheme or link.startswith("?") else link
 
@@ -290,7 +324,7 @@ class Link:
         return {spec.name: self.value(spec) for spec in specs}
 
     def require(self, scene: str, specs: Sequence[Spec]) -> None:
-        """Check that each key belongs to the scene or to the page.  A lenient link ignores unknown keys."""
+        """Check that each key belongs to the scene or to the page; note unknown keys, or raise an error."""
         names = [spec.name for spec in specs]
         unknown = _quote(name for name in self.texts if name not in names and name not in PAGE_KEYS)
         if unknown:
@@ -311,6 +345,6 @@ def _quote(names: Iterable[str]) -> str:
 
 
 def decode(query: str, specs: Sequence[Spec]) -> tuple[dict[str, Value], list[str]]:
-    """Return the values of all parameters in a query, and the notes on corrections."""
+    """Return the values of parameters in a query by name, with defaults for missing ones, and notes on corrections."""
     link = Link(query)
     return link.values(specs), link.notes

@@ -1,8 +1,8 @@
 """Pack the data of a state for the browser: all arrays in one message.
 
 Bokeh would send each array of a source as a separate message, about fifty per state.  Here the arrays become one block
-of bytes and a small tree with their positions.  The browser ("unpack.js") restores the columns of the sources.  All
-data of the pictures take this way.
+of bytes and a small tree with their positions.  In the browser "base/unpack.js" restores the columns of the sources.
+All data of the pictures are sent this way.
 """
 
 from __future__ import annotations
@@ -34,11 +34,11 @@ class Wire:
         self._ranges[plot] = [*x, *y]
 
     def set_text(self, key: str, text: str) -> None:
-        """Set the text of the `Text` component of that key."""
+        """Set the text of a key, which the browser shows in the element of that key."""
         self._texts[key] = text
 
     def caption(self, picture: str, caption: dict[str, str]) -> None:
-        """Set the title, verdict and numbers over a picture."""
+        """Set the caption of a picture: a dict of the fields of `Caption`."""
         self._captions[picture] = caption
 
     def show_number(self, name: str, value: float, limits: Sequence[float], idle: bool = False) -> None:
@@ -53,8 +53,9 @@ class Wire:
         """Return the tree and the block of all collected changes, and clear them.
 
         The tree has the keys "sources", "ranges", "texts", "captions" and "controls".  It represents an array by
-        {"at": first, "n": length}, counted in single-precision numbers, and its "shape" unless that is (n,).  Of an
-        array of 16-bit integers, two to such a number, "shorts" is the length.  Lists and plain values are copied.
+        {"at": first, "n": length}, counted in single-precision numbers, and its "shape" unless that is (n,).  An array
+        of 16-bit integers is stored with two integers per number; "shorts" is its length.  Lists and plain values are
+        copied.
         """
         blocks: list[np.ndarray] = []
         position = 0

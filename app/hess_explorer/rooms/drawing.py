@@ -25,19 +25,19 @@ _LEFT_OUT: dict[str, Any] = {
     "words": "",
     **{key: [] for key in ("controls", "essential", "groups", "presets", "tries")},
 }
-"""Parts of a description that need a session of one's own."""
+"""Empty values for the parts of a description that need a session."""
 
 
 @dataclass(frozen=True)
 class Frames:
-    """The frames of a state.
+    """The encoded responses for a state.
 
     Attributes
     ----------
     scene : bytes
-        Description of the picture.
+        Frame with the description of the picture.
     state : bytes
-        The state.
+        Frame with the complete state and the texts beside it.
     """
 
     scene: bytes
@@ -45,7 +45,7 @@ class Frames:
 
 
 def step_of(lessons: Mapping[str, Lesson], show: Show) -> LessonStep | None:
-    """Return the step of the lesson that the lecturer shows."""
+    """Return the step of the lesson that the lecturer shows; None without a lesson or for an unknown one."""
     lesson = lessons.get(show.lesson)
     return lesson.steps[show.step - 1] if lesson and 0 < show.step <= len(lesson.steps) else None
 
@@ -71,7 +71,7 @@ class RoomDrawing:
         return self._session is not None and self._session.background.backlog != self._left
 
     async def draw(self, show: Show) -> Frames | None:
-        """Return the frames of a state, or None if it takes too long."""
+        """Return the frames of a state, or None if they could not be made."""
         loop = asyncio.get_running_loop()
         done: asyncio.Future[Frames | None] = loop.create_future()
 
@@ -136,7 +136,10 @@ class RoomDrawing:
 
 
 def _picture(scene: Scene[Any], step: LessonStep | None, enlarged: str) -> str:
-    """Return the picture for followers: that of a prediction, the enlarged one, or the first one."""
+    """Return the name of the picture for followers.
+
+    The order of preference is: that of the prediction, the lecturer's enlarged one, the step's, the first open one.
+    """
     look = step.enlarged_picture if step is not None else ""
     guess = step.prediction.picture if step is not None and step.prediction else ""
     return next(name for name in (guess, enlarged, look, *scene.open_pictures) if name in scene.pictures)

@@ -4,12 +4,13 @@ The first message of a websocket is one of
 
 - {"open": true}: open the room of the URL; the answer {"key": …} belongs to the lecturer alone;
 - {"lead": key}: be the lecturer of that room, for instance after a reload;
-- {"follow": name}: follow; the name is random, and counts the guesses of a page that reconnects once.
+- {"follow": name}: follow; the name is random, and identifies the guess of a page that reconnects.
 
 Then the lecturer sends {"show": {"query", "lesson", "step", "revealed", "picture"}} and {"end": true}, a follower
 {"guess": [[x, y], …], "step": number}.  Anyone may send `ALIVE` of `hess_explorer.protocol.messages`.
 
-A room sends the lecturer {"followers": n, "guesses": n} and, when a guess is revealed, {"cloud": [[[x, y], …], …]}.
+A room sends the lecturer {"followers": n, "guesses": n} and, when a prediction is revealed, {"cloud": [points, …]} with
+the points [[x, y], …] of each guess.
 Followers get frames as in `hess_explorer.protocol.messages`: the description of the picture, and its states.
 """
 
@@ -42,7 +43,13 @@ class Open:
 
 @dataclass(frozen=True)
 class Lead:
-    """A request to be the lecturer of a room."""
+    """A request to be the lecturer of a room.
+
+    Attributes
+    ----------
+    key : str
+        Key of the room, which only its lecturer has received.
+    """
 
     key: str
 
@@ -87,7 +94,15 @@ class Show:
 
 @dataclass(frozen=True)
 class Guess:
-    """A guess at a step of the lesson: the clicked points, in the coordinates of the picture."""
+    """A guess at a step of the lesson.
+
+    Attributes
+    ----------
+    step : int
+        Number of the step, from 1.
+    points : tuple of (float, float)
+        Clicked points (x, y) on the axes of the picture, 1 to `MAX_POINTS`.
+    """
 
     step: int
     points: tuple[tuple[float, float], ...]

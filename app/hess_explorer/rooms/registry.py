@@ -27,7 +27,7 @@ class Rooms:
         self._running: set[asyncio.Task[None]] = set()
 
     def find(self, code: str) -> Room | None:
-        """Return the room with a code, or None."""
+        """Return the room with a code; None if there is none."""
         return self._rooms.get(code)
 
     @property
@@ -36,7 +36,7 @@ class Rooms:
         return len(self._rooms) >= MAX_ROOMS
 
     def open(self, code: str) -> Room:
-        """Open a room, which is removed when it ends."""
+        """Open and return a room, which is removed when it ends."""
         room = self._rooms[code] = Room(self._lessons)
         task = asyncio.get_running_loop().create_task(room.run())
         self._running.add(task)

@@ -16,16 +16,16 @@ from hess_explorer.rooms.drawing import Frames, RoomDrawing, step_of
 from hess_explorer.rooms.messages import Guess, Show
 
 PERIOD = 0.5
-"""Least number of seconds between two states."""
+"""Minimum interval between two states in seconds."""
 GRACE = 60.0
 """Seconds that a room waits for a lecturer whose page was closed or reloaded."""
 LONGEST = 3 * 3600.0
 """Maximum age of a room in seconds."""
 MAX_FOLLOWERS = 500
 AT_ONCE, PAUSE = 10, 0.005
-"""Number of followers that a state is sent to at once, and the seconds before the next ones.
+"""Number of followers to which a state is sent at once, and the pause in seconds before the next ones.
 
-Between them the event loop answers the lecturer's own requests.
+During a pause the event loop processes the lecturer's own requests.
 """
 
 ENDED = 4001, "The lecture has ended."
@@ -50,6 +50,11 @@ class Room:
     ----------
     lessons : mapping
         Available lessons by name.
+
+    Attributes
+    ----------
+    key : str
+        Random key, which identifies the lecturer.
     """
 
     def __init__(self, lessons: Mapping[str, Lesson]) -> None:
@@ -84,7 +89,7 @@ class Room:
         self._news.set()
 
     def follow(self, member: Member, name: str) -> bool:
-        """Add a follower and send it the last state; return False if the room is full."""
+        """Add a follower and send it the last state, if any; return False if the room is full."""
         if len(self._followers) >= MAX_FOLLOWERS:
             return False
         self._followers[member] = name
@@ -101,7 +106,7 @@ class Room:
             self._news.set()
 
     def show(self, member: Member, show: Show) -> None:
-        """Show a state to all followers, if the lecturer sends it."""
+        """Show a state to all followers, if the lecturer sends it; send the lecturer the guesses that it reveals."""
         if member is not self._lead or show == self._show:
             return
         before, self._show = self._show, show
@@ -113,7 +118,10 @@ class Room:
         self._news.set()
 
     def guess(self, member: Member, guess: Guess) -> None:
-        """Accept one guess of a follower's page, until the prediction is revealed."""
+        """Store the guess of a follower, in place of an earlier one, until the prediction is revealed.
+
+        A guess at a point is the last clicked point.
+        """
         name, asked, show = self._followers.get(member), self._prediction, self._show
         if name is None or asked is None or show is None or show.revealed or guess.step != show.step:
             return

@@ -1,4 +1,4 @@
-"""Track compiled kernels, and start processes that compile missing kernels.  This module imports only Numba."""
+"""Track compiled kernels, and start processes that compile missing kernels.  This module loads no scenes."""
 
 from __future__ import annotations
 
@@ -59,9 +59,9 @@ def compiler(work: str, patience: int = 0) -> subprocess.Popen[bytes]:
     Returns
     -------
     subprocess.Popen
-        The process.  It does not inherit the output pipes: a reader of this process's output would wait for it too.
+        The process.  It does not inherit standard output, whose reader would wait for it too.
     """
-    # Use a new process group, so that Ctrl-C reaches only the server, which then closes the compiler's standard input.
+    # Use a new session, so that Ctrl-C reaches only the server, which then closes the compiler's standard input.
     return subprocess.Popen(
         [sys.executable, "-c", _COMPILER.format(work=work, patience=patience)],
         stdin=subprocess.PIPE,

@@ -41,9 +41,9 @@ _one_slow = asyncio.Lock()
 _MOST = {False: 20, True: 5}
 """Maximum number of waiting requests by whether the file is slow."""
 _MOST_STATES = 400
-"""Maximum number of states of a page."""
+"""Maximum number of states of a page with sliders."""
 _SECONDS = 10.0
-"""CPU time limit of a file in seconds."""
+"""CPU time limit in seconds of a file that is not slow."""
 
 
 def _needs_browser(name: str, picture: str, kind: str) -> bool:
@@ -61,6 +61,11 @@ class Export(RequestHandler):
     combinations.  A slow file, which is a page with sliders or drawn by a browser, is preceded by lines that report its
     progress: "queued", "3/250" after the third of 250 frames or states, and finally "file 12345" with the number of
     bytes that follow, or "why" and an error message.
+
+    Attributes
+    ----------
+    waiting : dict of bool to int
+        Number of unanswered requests for files that are not slow and for slow files, in this process.
     """
 
     waiting: ClassVar[dict[bool, int]] = {False: 0, True: 0}
@@ -77,7 +82,10 @@ class Export(RequestHandler):
             self._task.cancel()
 
     async def get(self) -> None:
-        """Respond with the file; with 400 and a message if it cannot be created, with 503 if too many requests wait."""
+        """Respond with the file; with 400 and a message if it cannot be created, with 503 if too many requests wait.
+
+        A slow file that fails after its first line of progress ends with a line "why" instead.
+        """
         self._task = asyncio.current_task()
         self.set_header("X-Content-Type-Options", "nosniff")
         if len(self.request.query) > MAX_QUERY:
@@ -164,7 +172,7 @@ class Export(RequestHandler):
         self.flush()
 
     def _check_slow(self, query: str, picture: str, sliders: Sequence[str], grid: bool) -> None:
-        """Raise `InvalidParameter` if a slow file cannot be created."""
+        """Raise `InvalidParameter` if the query, a picture or a slider is invalid, or there are too many states."""
         if not sliders:
             address(query, picture, lenient=True)
             return

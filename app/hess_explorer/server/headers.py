@@ -44,7 +44,7 @@ def policy(nonce: str, embedders: tuple[str, ...]) -> str:
     nonce : str
         Nonce of the scripts of this response.
     embedders : tuple of str
-        Sites that may embed the page.
+        Sites that may embed the page; "*" allows all.
     """
     # Without frame-ancestors any page may embed this one; "*" would exclude local files.
     ancestors = "" if "*" in embedders else " ".join(embedders)
@@ -78,7 +78,7 @@ class GuardedDocument(DocHandler):
     _nonce = ""
 
     async def prepare(self) -> None:
-        """Create the nonce of the response and set the headers."""
+        """Create the nonce of the response and set the headers; respond with 414 if the query is far too long."""
         self._nonce = secrets.token_urlsafe(16)
         # Reject a far too long query before it is parsed; a slightly too long one opens the page with a note.
         if len(self.request.query) > QUERY_LIMIT:
@@ -101,7 +101,7 @@ class GuardedDocument(DocHandler):
     def write(self, chunk: str | bytes | dict[str, object]) -> None:
         """Write a chunk of the page; add start script and theme to its head, and the nonce to scripts.
 
-        Tags in the data are escaped.
+        In the data of the page "<" is escaped, so these tags occur only in its markup.
         """
         if isinstance(chunk, str):
             if _END in chunk:

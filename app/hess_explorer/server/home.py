@@ -12,7 +12,7 @@ _PREFIX = re.compile(r"(/[\w.-]+)+", re.ASCII)
 
 
 def home_of(request: HTTPServerRequest) -> str:
-    """Return the public address of the page, with a slash at the end; respects X-Forwarded headers of proxies."""
+    """Return the public address of the page, with a slash at the end; respects X-Forwarded-Proto, -Host, -Prefix."""
 
     def told(name: str, allowed: re.Pattern[str], otherwise: str) -> str:
         # Each proxy appends to the header, so the first entry comes from the proxy that the browser addressed.

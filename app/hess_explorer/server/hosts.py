@@ -85,7 +85,7 @@ def _local_address(request: HTTPServerRequest) -> str:
 
 
 def is_allowed_origin(handler: RequestHandler, origin: str) -> bool:
-    """Return whether the origin is this server, under the host of the request, or an allowed origin."""
+    """Return whether the origin is the host of the request, or an allowed origin; log a warning if it is neither."""
     host, application = urlsplit(origin).netloc.lower(), cast(BokehTornado, handler.application)
     if host == handler.request.host.lower() or check_allowlist(host, [*application.websocket_origins]):
         return True

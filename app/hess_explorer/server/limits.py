@@ -28,7 +28,18 @@ OPEN_SOCKETS: set[WebSocketHandler] = set()
 
 
 class Capacity:
-    """Counts the open sessions of one process, because each takes memory; used only in the thread of the event loop."""
+    """Counts the open sessions of one process, because each takes memory; used only in the thread of the event loop.
+
+    Parameters
+    ----------
+    most : int
+        Maximum number of sessions.
+
+    Attributes
+    ----------
+    most, sessions : int
+        Maximum and current number of sessions.
+    """
 
     def __init__(self, most: int) -> None:
         self.most = most
@@ -62,7 +73,7 @@ class RateLimit:
     frames : int
         Number of frames per message.
     rate, burst : float, optional
-        Messages per second and burst size; by default those of a page.
+        Messages per second and burst size in messages; by default `RATE` and `BURST`.
     size : int
         Maximum size of a frame in bytes.
     """

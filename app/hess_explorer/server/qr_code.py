@@ -34,8 +34,8 @@ class QrCode(RequestHandler):
             refuse(
                 self,
                 400,
-                f"The link has {length} characters, but a readable QR code holds at most {MAX_LENGTH}: share the link "
-                "itself.",
+                f"The link has {length} bytes, but a readable QR code holds at least 1 and at most {MAX_LENGTH}: share "
+                "the link itself.",
             )
             return
         # A large code takes 0.1 s, too long for the event loop.

@@ -16,7 +16,7 @@ from hess_explorer.server.hosts import is_allowed_origin
 from hess_explorer.server.limits import OPEN_SOCKETS, RateLimit
 
 SIZE, RATE, BURST = 8 * 1024, 10.0, 30.0
-"""Maximum size of a message in bytes, messages per second and burst size."""
+"""Maximum size of a message in bytes, messages per second, and burst size in messages."""
 
 # Close codes of the application, see "page/room_socket.js".
 TAKEN = 4003, "There is a room with this code."
@@ -72,7 +72,7 @@ class RoomSocket(WebSocketHandler):
         return is_allowed_origin(self, origin)
 
     def open(self, code: str) -> None:
-        """Wait for the first message."""
+        """Register this websocket as open; its first message determines its role."""
         OPEN_SOCKETS.add(self)
         self.set_nodelay(True)
         self._code, self._limit = code, RateLimit(rate=RATE, burst=BURST, size=SIZE)
@@ -82,7 +82,7 @@ class RoomSocket(WebSocketHandler):
         self._outbox.put(kind, message)
 
     def on_message(self, message: str | bytes) -> None:
-        """Process a message within the limits."""
+        """Process a message within the limits; close the websocket after an invalid or unexpected message."""
         if not self._limit.accepts(self, message):
             return
         try:

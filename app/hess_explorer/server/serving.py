@@ -118,12 +118,19 @@ def create_server(
     workers: int = 1,
     **changed: Any,
 ) -> Server:
-    """Return a server that listens but is not started; parameters as in `serve`.
+    """Return a server that listens but is not started.
 
     Parameters
     ----------
+    port, address, origins, lessons, sessions, follow, workers
+        As in `serve`.
     **changed
-        Further options of `panel.io.server.get_server`.
+        Options of `panel.io.server.get_server` that replace the defaults.
+
+    Returns
+    -------
+    bokeh.server.server.Server
+        The server; with several workers, this returns in each of them, but not in their parent process.
     """
     capacity, rooms = Capacity(sessions), Rooms(_lessons(lessons))
     patterns = [
@@ -182,9 +189,10 @@ def serve(
     show : bool
         True to open the page in a browser.
     origins : sequence of str
-        HOST:PORT of further hosts by which browsers reach the server; those of this machine are always allowed.
+        HOST or HOST:PORT of further hosts by which browsers reach the server; "*" allows all.  Those of this machine
+        are always allowed.
     ready : callable
-        Called from another thread when the page can be shown without compiling first.
+        Called once, from another thread, when the page can be shown without compiling first.
     lessons : sequence of Lesson
         Lessons in addition to those of the package.
     embedders : sequence of str
@@ -194,7 +202,12 @@ def serve(
     sessions : int
         Maximum number of sessions per worker.
     follow : callable or None
-        Called with the query of every state that a page shows.
+        Called with the query of every state that a page shows, from any thread.
+
+    Raises
+    ------
+    HandlerMissing
+        If the installed version of Panel or Bokeh is not supported.
     """
     # Use Bokeh's `basicConfig`, because the handler of its logger prints no times.
     basicConfig(format="%(asctime)s %(name)s %(message)s", datefmt="%Y-%m-%dT%H:%M:%S%z")

@@ -1,4 +1,4 @@
-"""Make a film or a page with sliders in a separate low-priority process that runs `hess-explorer export`."""
+"""Make a slow file in a separate low-priority process that runs `hess-explorer export`."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ async def slow_file(words: Sequence[str], tell: Callable[[str], None]) -> bytes:
     Parameters
     ----------
     words : sequence of str
-        Arguments of the command.
+        Arguments of the command, without --progress and --out.
     tell : callable
         Called with the progress, for example "3/250" after the third of 250 frames or states.
 

@@ -27,6 +27,8 @@ QUIET_SECONDS, PAGE_SECONDS = 0.3, 8.0
 def compute(name: str, folded: bool = True) -> None:
     """Compile or load the kernels of a scene by computing its default state and one background task of each kind.
 
+    A `ModelError` is logged as a warning, and not raised.
+
     Parameters
     ----------
     name : str
@@ -48,7 +50,7 @@ def compute(name: str, folded: bool = True) -> None:
 
 
 def compile_all(processes: int = 1) -> None:
-    """Compile the kernels of all scenes into the cache on disk.
+    """Compile the kernels of all scenes into the cache on disk, unless all of them are there.
 
     Parameters
     ----------
@@ -107,7 +109,7 @@ def warm(first_is_ready: Callable[[], None] = lambda: None) -> None:
 
 
 def _wait_for_a_page() -> None:
-    """Wait until a page has requested a state: a browser may be loading it on the same cores."""
+    """Wait until a page requests a state, at most `PAGE_SECONDS`: a browser may be loading it on the same cores."""
     asked, ends = CACHE.lookups, time.monotonic() + PAGE_SECONDS
     while CACHE.lookups == asked and time.monotonic() < ends:
         time.sleep(0.05)

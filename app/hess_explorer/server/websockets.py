@@ -76,7 +76,7 @@ class StateSocket(WebSocketHandler):
         return is_allowed_origin(self, origin)
 
     def open(self) -> None:
-        """Start a session with the state of the query, unless the server is full."""
+        """Start a session with the state of the query; close the websocket if the server is full."""
         if sum(isinstance(one, StateSocket) for one in OPEN_SOCKETS) >= self._most:
             self.close(1013, FULL)
             return

@@ -6,11 +6,11 @@ from itertools import product
 import numpy as np
 from pytest import approx, mark, raises
 
-from hess_mechanics import Status, ensemble, level, solve, systems
+from hess_mechanics import Status, ensemble, level, solve
 from hess_mechanics.dynamics.ensemble import MAX_NUMBERS
 from hess_mechanics.errors import ModelError, WorkLimit
 from hess_mechanics.numerics.batch_kernels import LANES
-from support.mechanics import EQUILIBRIA, every_level
+from support.mechanics import EQUILIBRIA, SOME, every_level, some_systems
 from support.thorough import sample
 
 FORWARD = np.linspace(0.0, 10.0, 61)
@@ -34,9 +34,6 @@ def unit_of(system, states, parameters):
 
 
 TIMES = (FORWARD, -FORWARD, np.linspace(0.0, 5.0, 2001), [0.0], [0.0, 0.0, 1e-9, 1.0, 1.0, 7.0])
-# The compiler takes ten seconds for the ensembles of a system.
-SOME = sample(systems().values(), 2)
-some_systems = mark.parametrize("system", SOME, ids=lambda system: system.name)
 
 
 @every_level

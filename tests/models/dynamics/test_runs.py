@@ -4,8 +4,7 @@ import numpy as np
 from pytest import mark
 
 from hess_mechanics import Level, Plane, Status, ensemble, section, solve
-from support.mechanics import SYSTEMS
-from support.thorough import sample
+from support.mechanics import some_systems
 
 
 def equator(system):
@@ -19,7 +18,6 @@ RUNS = {
     "section": lambda system, level: section(*system.example_motion, equator(system), 20.0, level),
 }
 every_run = mark.parametrize("run", RUNS.values(), ids=RUNS)
-some_systems = mark.parametrize("system", sample(SYSTEMS.values(), 2), ids=lambda system: system.name)
 
 
 @some_systems

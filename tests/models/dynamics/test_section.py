@@ -10,11 +10,9 @@ from scipy.optimize import brentq
 from hess_mechanics import Level, Plane, Status, level, section, solve
 from hess_mechanics.dynamics.plane_section import MAX_CROSSINGS
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from support.mechanics import EQUILIBRIA, SYSTEMS, every_level, every_system, scipy_crossings
+from support.mechanics import EQUILIBRIA, SYSTEMS, every_level, every_system, scipy_crossings, some_systems
 from support.refusals import refused
 from support.thorough import sample
-
-some_systems = mark.parametrize("system", sample(SYSTEMS.values(), 2), ids=lambda system: system.name)
 
 
 def axis(system, component):

@@ -17,9 +17,8 @@ from pytest import approx, mark, raises
 from hess_mechanics import SuslovBody, System, level, return_map, solve, unit_vector
 from hess_mechanics.dynamics.orbit import MAX_SAMPLES
 from hess_mechanics.errors import InvalidParameter, ModelError, NotPositiveDefinite, WorkLimit, WrongScaling
-from support.mechanics import ROOT, SYSTEMS, every_system
+from support.mechanics import ROOT, SYSTEMS, every_system, some_systems
 from support.refusals import refused
-from support.thorough import sample
 
 
 def without_jit(code, *arguments):
@@ -49,8 +48,6 @@ def assert_same_without_jit(code, within=1e-11):
     for key, values in compiled.items():
         assert plain[key] == approx(values, rel=within, abs=within), key
 
-
-some_systems = mark.parametrize("system", sample(SYSTEMS.values(), 2), ids=lambda system: system.name)
 
 
 def test_the_registry_finds_every_module_that_defines_a_system():

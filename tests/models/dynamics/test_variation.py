@@ -10,7 +10,7 @@ from hess_mechanics import level, systems
 from hess_mechanics.dynamics.system import Problem
 from hess_mechanics.dynamics.variation import return_derivative, tangent
 from hess_mechanics.errors import InvalidParameter, WorkLimit
-from support.thorough import sample
+from support.mechanics import some_systems
 
 PRECISE, REFERENCE = level("precise"), level("reference")
 SUSLOV = systems()["suslov"]
@@ -22,10 +22,6 @@ def flow(body, start, times, accuracy):
     scale, times = problem.scale, problem.times(np.atleast_1d(times))
     found = tangent(problem, problem.states[0], np.eye(scale.size), times, accuracy, math.inf)
     return found.states * scale, scale[:, None] * found.vectors / scale, found.volume
-
-
-# The compiler takes ten seconds for the variation of a system.
-some_systems = mark.parametrize("system", sample(systems().values(), 2), ids=lambda system: system.name)
 
 
 @some_systems

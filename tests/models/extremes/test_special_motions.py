@@ -1,6 +1,6 @@
 """Bridge, loxodromic pendulum, b on a principal axis, tracks and motions without a field, at extreme parameters."""
 
-from math import atan2, cos, sin, sqrt, tan
+from math import atan2, cos, sin, sqrt
 
 import numpy as np
 from pytest import mark, param
@@ -15,17 +15,7 @@ from hess_mechanics.suslov import kharlamova
 from hess_mechanics.suslov.free import free_motion
 from hess_mechanics.suslov.kharlamova import PlaneBody
 from support.extremes import assert_promised, off
-from support.loxodrome import swing_at
-
-
-def closed_form(one, tau):
-    """Centre of mass and middle axis in space, along (γ, e, γ × e), at the times τ in units b = 1."""
-    a1, a2, a3 = one.body.a
-    a = (1 if a1 > a3 else -1) * sqrt((a3 - a2) * (a2 - a1)) / a2
-    alpha = swing_at(one.h, tau)
-    l = 2.0 * np.arctan(tan(0.5 * one.l) * np.exp(a * alpha))
-    centre = np.stack([np.cos(alpha), 0.0 * alpha, -np.sin(alpha)], axis=1)
-    return centre, np.stack([np.sin(l) * np.sin(alpha), np.cos(l), np.sin(l) * np.cos(alpha)], axis=1)
+from support.loxodrome import closed_form
 
 
 SUSLOV, UP = systems()["suslov"], (0.6, 0.0, 0.8)

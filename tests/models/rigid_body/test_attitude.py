@@ -115,7 +115,7 @@ def test_the_logarithm_of_the_printed_formula_needs_a_dot():
 
 test_what_is_no_loxodromic_pendulum_is_refused_in_a_sentence = refused(
     (lambda: pendulum(h=-1.0), "choose h > −1", OutsideRegion),
-    (lambda: pendulum(l=0.0), "Choose 0 < l < π"),
+    (lambda: pendulum(l=0.0), "choose 0 < l < π"),
     (lambda: LoxodromicPendulum(HeavyBody.hess((1.0, 1.5, 2.0), 1.0, 0.1), 1.5, 0.4), "Hess"),
     (lambda: loxodromic_motion(pendulum(), 1e9, "draft"), "shorter", ModelError),
 )

@@ -185,7 +185,7 @@ def test_exactly_on_the_lock_boundary_the_map_is_parabolic_with_one_fixed_point(
 test_a_without_meaning_and_a_search_without_an_answer_raise_a_sentence = refused(
     (lambda: circle_map(1e7, 1.5, 0.6, DRAFT), "a = 1e\\+07 is too large"),
     # No map of rotation numbers hides such a torus.
-    (lambda: rotation_number_window(1e6, (0.5, 1e8), (0.1, 1.0), DRAFT, (2, 2)), "choose smaller a", WorkLimit),
+    (lambda: rotation_number_window(1e6, (0.5, 1e8), (0.1, 1.0), DRAFT, (2, 2)), "choose a smaller \\|a\\|", WorkLimit),
     (lambda: critical_a(0.0, 1e-09, DRAFT), "no limit cycles appear"),
     (lambda: critical_a(1.0, 0.0, DRAFT), "no return", Separatrix),
 )

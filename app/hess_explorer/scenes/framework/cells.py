@@ -30,7 +30,7 @@ def cells_by_rows(
 ) -> tuple[Array, int] | None:
     """Return the cells (n, …, m) in the resolution of the last stage, and the number of rows that are still coarse.
 
-    A row that is not yet known repeats the cells of the stage before.  None until all rows of the first stage are known.
+    Rows that are not yet known repeat the cells of the stage before.  None until all rows of the first stage are known.
 
     Parameters
     ----------

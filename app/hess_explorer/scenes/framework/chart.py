@@ -124,7 +124,7 @@ class _Chart(Part[Any]):
         return crop([self.point], self.window)
 
     def choose(self, x: float, y: float) -> Values:
-        """Return the values that a click at a point sets.  Raises `ModelError` if the number is not defined there."""
+        """Return the values that a click at a point sets.  Raises `ModelError` if no number can be computed there."""
         across, up = self.axes
         state = up.put(across.put(self.host, x), y)
         self.key.source.values(state)

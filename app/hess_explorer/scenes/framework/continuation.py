@@ -33,7 +33,7 @@ _TOGETHER = 60
 _PARTS = 16
 """Largest number of pieces of a branch in each direction."""
 _STEP = 0.02
-"""Longest step, in units of the coordinates and of the range: its chord is half a pixel off, at a turn of 0.3 rad."""
+"""Longest step, in units of the coordinates and the range: with a turn of 0.3 rad its chord is off by half a pixel."""
 _LEAST_ADVANCE = 1e-4
 """Least advance of a piece, as a share of the range or in a coordinate: shorter pieces show no progress."""
 _NEAR = 12.0

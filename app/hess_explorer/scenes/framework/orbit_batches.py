@@ -27,7 +27,7 @@ class OrbitBatch:
     first_kind : tuple of bool
         True for orbits of the first of two kinds.
     drift : mapping of str to float
-        Largest drift of each integral, relative where it exceeds 1 in size; empty without any crossing.
+        Largest drift of each integral, relative to its initial value if that exceeds 1; empty without any crossing.
     steps : int
         Total number of Taylor steps.
     reasons : tuple of str

@@ -55,7 +55,7 @@ class Part(Generic[H_co]):
         return self.host.work
 
     def has_result(self, name: str) -> bool:
-        """Return whether this cached property has been computed.  Texts ask first, so that they start no computation."""
+        """Return whether this cached property is computed already.  Texts use it, because they start no computation."""
         return name in vars(self)
 
     def corrections(self, notes: list[str]) -> Values:

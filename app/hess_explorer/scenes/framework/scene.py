@@ -136,7 +136,7 @@ class State:
 
     @property
     def level(self) -> Level:
-        """The level of accuracy; during a drag the cheapest level with an error below half a pixel."""
+        """The level of accuracy; during a drag at most the cheapest level with an error below half a pixel."""
         return self.work.level
 
     @property
@@ -396,7 +396,7 @@ class Scene(Generic[S]):
         return {spec.name: spec.default for spec in self.specs}
 
     def example(self, preset: Preset) -> dict[str, Value]:
-        """Return the values that a preset sets: all parameters, except choices that no preset of the scene changes."""
+        """Return the values that a preset sets: all parameters, except choices that no preset of the scene sets."""
         given = {name for one in self.presets for name in one.values}
         plain = {one.name: one.default for one in self.specs if not isinstance(one, ChoiceSpec) or one.name in given}
         return {**plain, **preset.values}
@@ -423,7 +423,7 @@ class Scene(Generic[S]):
     def admit(self, values: Values) -> tuple[dict[str, Value], list[str]]:
         """Clamp the values to a valid state; return them and a note for each change.
 
-        If no valid state is near, they are only clamped to the bounds of each parameter.
+        If `State.valid_state` raises `ModelError`, they are only clamped to the bounds of each parameter.
         """
         within: dict[str, Value] = {}
         notes: list[str] = []
@@ -518,7 +518,7 @@ class Scene(Generic[S]):
         )
 
     def _settle(self, state: S) -> None:
-        """Set the level of "auto" to the cheapest one with an invisible error in all visible pictures, once measured."""
+        """Set the level of "auto" to the cheapest one with an invisible error in all visible pictures, if measured."""
         if not state.work.auto or state.is_preview:
             return
         found = [

@@ -1,4 +1,4 @@
-"""Declarations of a scene's parameters: fields of its state, in the terms of the library param."""
+"""Declarations of a scene's parameters, as fields of its state; "bounds" and "softbounds" as in the library param."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from hess_mechanics.numerics.accuracy import LEVELS
 from hess_mechanics.parameters import Group, Parameter
 
 Slider = tuple[float, float, float]
-"""(low, high, step)."""
+"""Range and step of a slider: (low, high, step)."""
 
 ONE_TURN = (-math.pi, math.pi)
 """Bounds of an angle that a click sets: a picture shows one turn."""
 
 TURN = 3.14159
-"""Half a turn, with the digits of a point in a link."""
+"""Bound on the angles of points in a link: π, rounded down."""
 _SPEC = "spec"
 HIDDEN, SHOWN = "not shown", "shown"
 
@@ -65,12 +65,48 @@ def number(
     group: Group = "State",
     meaning: str = "",
 ) -> Any:
-    """Declare a number: its slider covers `softbounds` in steps; typed values and links are limited to `bounds`."""
+    """Declare a number: its slider covers `softbounds` in steps; typed values and links are limited to `bounds`.
+
+    Parameters
+    ----------
+    symbol : str
+        Symbol of the number.
+    default : float
+        Default value.
+    softbounds : (float, float)
+        Ends of the slider.
+    step : float
+        Step of the slider.
+    bounds : (float, float)
+        Smallest and largest value.
+    label : str
+        Label of the control.
+    doc : str
+        Tooltip of the control.
+    group : str
+        Group of the control.
+    meaning : str
+        Meaning by which other scenes recognize the parameter; by default the label.
+    """
     return declare(NumberSpec("", symbol, label, default, softbounds, step, bounds, doc, group, meaning=meaning))
 
 
 def choice(label: str, options: tuple[str, ...], default: str, *, doc: str, group: Group = "Computation") -> Any:
-    """Declare a choice from a fixed list of names."""
+    """Declare a choice from a fixed list of names.
+
+    Parameters
+    ----------
+    label : str
+        Label of the control.
+    options : tuple of str
+        The names.
+    default : str
+        Default name.
+    doc : str
+        Tooltip of the control.
+    group : str
+        Group of the control.
+    """
     return declare(ChoiceSpec("", label, options, default, doc, group))
 
 
@@ -94,7 +130,19 @@ def formula(label: str, default: str, reads: Callable[[str], object], *, doc: st
 
 
 def points(label: str, most: int, low: tuple[float, float], high: tuple[float, float], default: str = "") -> Any:
-    """Declare at most `most` points set with the mouse, within a rectangle; they have no control."""
+    """Declare points that are set with the mouse; they have no control.
+
+    Parameters
+    ----------
+    label : str
+        Label in messages.
+    most : int
+        Largest number of points.
+    low, high : (float, float)
+        Lower left and upper right corner of the rectangle that contains the points.
+    default : str
+        Default points as a text "x,y;x,y"; by default none.
+    """
     return declare(Points("", label, most, low, high, default))
 
 
@@ -124,7 +172,19 @@ def show_proved_error() -> Any:
 
 
 def exponent_time(default: float, longest: float, most: float, what: str) -> Any:
-    """Declare the averaging time along the orbit."""
+    """Declare the averaging time along the orbit.
+
+    Parameters
+    ----------
+    default : float
+        Default time.
+    longest : float
+        Upper end of the slider.
+    most : float
+        Largest typed value.
+    what : str
+        Name of the averaged quantity with its verb, such as "the exponent is".
+    """
     return number(
         "T",
         default,
@@ -138,7 +198,21 @@ def exponent_time(default: float, longest: float, most: float, what: str) -> Any
 
 
 def time_span(default: float, longest: float, *, step: float = 1.0, most: float = 1e4, what: str = "the orbit") -> Any:
-    """Declare a time span; the slider ends at `longest`, typed values at `most`."""
+    """Declare a time span.
+
+    Parameters
+    ----------
+    default : float
+        Default time.
+    longest : float
+        Upper end of the slider.
+    step : float
+        Step of the slider.
+    most : float
+        Largest typed value.
+    what : str
+        Name of the motion, as in "the orbit".
+    """
     return number(
         "t",
         default,
@@ -158,7 +232,7 @@ def redeclare(state: type[Any], name: str, default: Value | None = None, **chang
 
 
 def slider_within(largest: float) -> Slider:
-    """Return a slider from −largest to largest, with round ends and a few hundred round steps."""
+    """Return a slider with the round ends ±largest, rounded towards 0, in 200 to 2000 round steps; largest > 0."""
     digits = 2 - math.floor(math.log10(largest))
     step = float(f"1e{-digits}")
     end = round(math.floor(largest / step) * step, digits)
@@ -166,9 +240,10 @@ def slider_within(largest: float) -> Slider:
 
 
 def specs_of(state: type[Any]) -> tuple[Spec, ...]:
-    """Return the specifications of all parameters of a class of states, including its bases and the chart.
+    """Return the specifications of all parameters of a class of states, with those of its bases, swarm and chart.
 
-    A parameter that is declared again keeps its place.
+    The parameters of a class come before those of its bases; those that do not change other results come last.  A
+    parameter that is declared again keeps its place.
     """
     level = {name: i for i, one in enumerate(state.__mro__) for name in get_annotations(one)}
     own = [one for one in fields(state) if _SPEC in one.metadata]

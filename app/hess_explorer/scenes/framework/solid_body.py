@@ -53,9 +53,9 @@ class Solid:
     mass : Direction or None
         Direction of the centre of mass; None without a field.
     shape : Shape or None
-        Its ellipsoid; None if none is drawn.
+        The ellipsoid of the body; None if none is drawn.
     about_shape : Caption
-        Caption of the picture.
+        Caption of the picture, unless the motion is too long to be drawn.
     is_drawn : bool
         False if the picture stays empty.
     """
@@ -70,12 +70,12 @@ class Solid:
 
     @cached_property
     def attitude(self) -> Attitude:
-        """The attitude along the orbit."""
+        """The attitude along the orbit, with samples between those of the orbit, see `attitude_along`."""
         omega = self.omega if self.omega.shape[1] == 3 else np.column_stack([self.omega, np.zeros(len(self.times))])
         return attitude_along(self.times, omega, self.gamma)
 
     def in_space(self, held: bool = False) -> tuple[Attitude, Array] | None:
-        """Return attitude and times, with every second sample during a drag; None if nothing is drawn."""
+        """Return attitude and times, or None if nothing is drawn; with `held`, only every second sample."""
         if not self.is_drawn or self.attitude.defect > _LARGEST_DEFECT:
             return None
         found = self.attitude.thin() if held else self.attitude
@@ -83,12 +83,15 @@ class Solid:
 
     @property
     def caption(self) -> Caption:
-        """The caption of its picture."""
+        """The caption of the picture: about the ellipsoid, or that the motion is too long to be drawn."""
         return _TOO_LONG if self.is_drawn and self.in_space() is None else self.about_shape
 
 
 def free_I33(tensor: tuple[float, float, float, float], check: BodyCheck) -> float:
-    """Return the middle I33 of the rigid bodies with this tensor; without any, a positive definite choice."""
+    """Return the middle I33 of the rigid bodies with this (I11, I22, I13, I23).
+
+    If there is no such body, return an I33 with which the tensor is positive definite.
+    """
     I11, I22, I13, I23 = tensor
     if check.I33 is None:
         return max(0.5 * (I11 + I22), 2.0 * (I13**2 / I11 + I23**2 / I22))
@@ -123,7 +126,10 @@ def constrained_solid(work: Work, body: Body, orbit: Orbit | FreeMotion) -> Soli
 
 
 def hess_solid(body: HessBody, track: Track) -> Solid:
-    """Return a body of the Suslov–Hess case with its gyration ellipsoid and the section normal to n3."""
+    """Return a body of the Suslov–Hess case with its gyration ellipsoid and the section normal to n3.
+
+    If |a| ≥ 1 there is no rigid body, and nothing is drawn.
+    """
     mass = centre_of_mass((0.0, body.b2, body.b3))
     if body.middle_I33 is None:
         about_shape = Caption(
@@ -147,7 +153,7 @@ def hess_solid(body: HessBody, track: Track) -> Solid:
 
 
 def heavy_solid(body: HeavyBody, times: Array, states: Array) -> Solid:
-    """Return a heavy body along its orbit, given by states (n, 6) = (M, γ)."""
+    """Return a heavy body along its orbit, given by times (n,) and states (n, 6) = (M, γ)."""
     shape, about_shape = None, Caption("Not a rigid body, so no ellipsoid.", "r: the centre of mass.")
     if body.check.is_body:
         I1, I2, I3 = (1.0 / a for a in body.a)
@@ -182,11 +188,11 @@ def body_picture(
     of : callable
         `of(state)` returns the body.
     name, title : str
-        Name and title of the picture.
+        Name and title of the picture; the title of a ball's is always "The ball in space".
     ball : bool
-        True if the body rolls on another ball.
+        True if the body is a hollow ball that rolls on an inner one.
     field : bool
-        True if there may be a field.
+        True to explain the centre of mass in the legend, because there may be a field.
     section : bool
         True to draw the circular section and the trail of the centre of mass.
     wheels : bool

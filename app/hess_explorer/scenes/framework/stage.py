@@ -19,7 +19,15 @@ S = TypeVar("S", bound=State)
 
 
 class Stage(Generic[S]):
-    """The pictures of a scene in one session; sends the changed columns of visible pictures."""
+    """The pictures of a scene in one session; sends the changed columns of visible pictures.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+    wire : Wire
+        Connection to the browser.
+    """
 
     def __init__(self, scene: Scene[S], wire: Wire) -> None:
         self.scene, self.wire = scene, wire
@@ -30,7 +38,17 @@ class Stage(Generic[S]):
         self._state: S | None = None
 
     def show(self, state: S, hold_axes: bool) -> Report:
-        """Draw a state of `Scene.compute`; `hold_axes` keeps the axes during a drag.  Raises `ModelError`."""
+        """Draw a state and return the texts beside the pictures.
+
+        Raises `ModelError`, before anything is sent.
+
+        Parameters
+        ----------
+        state : State
+            A state from `Scene.compute`.
+        hold_axes : bool
+            True to keep the axes, as during a drag.
+        """
         # Compute everything that can fail before drawing, so that a failing state is not partly drawn.
         views = [view for view in self.scene.views if view.name in state.visible]
         captions = {view.name: view.full_caption(state) for view in views}
@@ -75,22 +93,28 @@ class Stage(Generic[S]):
             self.wire.caption(name, asdict(Caption(title=sentence)))
 
     def pick(self, picture: str, x: float, y: float) -> Values:
-        """Return the values that a click at (x, y) of a picture sets.  Raises `ModelError`."""
+        """Return the values that a click at (x, y) of a picture sets; empty for a hidden picture.
+
+        Raises `ModelError`.
+        """
         state, view = self._visible(picture)
         return {} if state is None or view is None or view.on_click is None else view.on_click(state, x, y)
 
     def box(self, picture: str, corners: Corners) -> Values:
-        """Return the values that a box from (x0, y0) to (x1, y1) of a picture sets.  Raises `ModelError`."""
+        """Return the values that a box (x0, y0, x1, y1) in a picture sets; empty for a hidden picture.
+
+        Raises `ModelError`.
+        """
         state, view = self._visible(picture)
         return {} if state is None or view is None or view.on_box is None else view.on_box(state, corners)
 
     def hover(self, picture: str, x: float, y: float) -> str:
-        """Return the tooltip at (x, y) of a picture.  Raises `ModelError`."""
+        """Return the tooltip at (x, y) of a picture; empty for a hidden picture.  Raises `ModelError`."""
         state, view = self._visible(picture)
         return "" if state is None or view is None or view.on_hover is None else view.on_hover(state, x, y)
 
     def _visible(self, picture: str) -> tuple[S, Picture[S]] | tuple[None, None]:
-        """Return the current state and a picture; None if the picture is hidden, because it has no results."""
+        """Return the current state and a picture; (None, None) if it is hidden, because it then has no results."""
         state = self._state
         return (None, None) if state is None or picture not in state.visible else (state, self._views[picture])
 
@@ -102,7 +126,7 @@ class Stage(Generic[S]):
                 self.wire.put_ranges(view.name, axes.x, axes.y)
 
     def _put(self, source: str, columns: Columns) -> None:
-        """Send columns that differ from those in the browser."""
+        """Send the columns of a source if they differ from those in the browser."""
         before = self._sent.get(source, {})
         # Bokeh requires all columns of a glyph: columns without data are sent empty.
         whole = columns if source in self._canvases else {**{name: [] for name in before}, **columns}

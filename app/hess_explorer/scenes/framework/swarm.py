@@ -41,13 +41,13 @@ _COUNTS = (ONE, "2", "8", "50", "200", "2000")
 _NEAR = 0.02
 """Share of the phase that a swarm near the chosen start takes."""
 _ABOVE = 10.0
-"""A known distance is this many times as large as the errors of both motions, or larger than `ERROR`."""
+"""A distance is known if it exceeds this many times the errors of both motions, or `ERROR`."""
 _SEEN = 1e-12, 1e12
 """Smallest and largest relative distance of the graph."""
 _IN_SPACE = 50
 """Largest number of bodies whose centres of mass are shown in space."""
 _BYTES = 1_900_000
-"""Largest size of the columns of a swarm."""
+"""Largest size of the columns of a swarm, in bytes."""
 
 
 @dataclass(frozen=True)
@@ -63,12 +63,13 @@ class Swarm(Generic[S]):
         `columns(state, times, states)` returns the columns (n, m) that the pictures follow; times (m,) and states
         (n, m, d) are those of the motion's system.
     angles, steps : tuple of str
-        Columns that are angles, and those that are constant during a period.
+        Names of the columns that are angles, and of those that are constant during a period.
     period : callable
-        `period(state)` returns the period at whose multiples the steps lie, in the time of the system, or None.
+        `period(state)` returns the period at whose multiples the steps lie, in the time of the system; None without
+        steps.
     rate : callable
-        `rate(state)` returns the rate, per unit of t, at which neighbours separate in the end, expected in the sense
-        of time of the swarm, and its name; or None.
+        `rate(state)` returns the asymptotic rate, per unit of t, at which neighbours separate in the time direction of
+        the swarm, and a phrase that names it; None if it is unknown.
     """
 
     starts: Callable[[S, Array], Array]
@@ -89,7 +90,7 @@ def turned_swarm(
     more : callable
         `more(state, states)` returns further columns (k,) of states (k, d).
     angles : tuple of str
-        Those of them that are angles.
+        Names of the further columns that are angles.
     """
 
     def columns(state: Any, times: Array, states: Array) -> Columns:
@@ -114,19 +115,22 @@ class _SwarmPart(Part[Any]):
 
     @cached_property
     def angles(self) -> Array:
-        """Angles (n,) of the bodies: of their starts, or around the vertical; empty without a swarm."""
+        """Angles (n,) of the bodies, in radians: of their starts, or about the vertical; empty without a swarm."""
         n = int(self.host.swarm)
         share = _NEAR if self.host.swarm_from == NEAR else 1.0
         return share * 2.0 * math.pi * ((np.arange(n) + 0.5) / n - 0.5) if n > 1 else np.empty(0)
 
     @property
     def _clicked(self) -> list[tuple[float, float]]:
-        """The last two points that were clicked in a section, or fewer, between which the starts are to lie."""
+        """The last two points clicked in a section, or fewer, if the starts are to lie on a line; otherwise empty."""
         return points_of(self.host.starts)[-2:] if self.host.swarm_from == LINE else []
 
     @property
     def starts(self) -> Array:
-        """Initial states (n, d), without points of a line at which no motion is possible."""
+        """Initial states (n, d): at the angles, or on a line once two points are clicked.
+
+        Points of the line at which no motion is possible are left out.  Raises `ModelError`.
+        """
         if len(self._clicked) < 2:
             return self.swarm.starts(self.host, self.angles)
         first, last = self._clicked
@@ -144,7 +148,7 @@ class _SwarmPart(Part[Any]):
 
     @cached_property
     def motions(self) -> SwarmMotions | None:
-        """The motions; None without a swarm."""
+        """The motions; None without a swarm, and if no motion is possible on the line of starts."""
         if not self.angles.size:
             return None
         starts = tuple(map(tuple, self.starts.tolist()))
@@ -155,7 +159,7 @@ class _SwarmPart(Part[Any]):
         return self.work.need(Task(swarm_motions, self._motion, starts, most, self.swarm.period(self.host)))
 
     def track(self) -> Columns | None:
-        """Return the columns of the swarm, see "swarm.js"; None without one."""
+        """Return the columns of the swarm, see "swarm.js"; None without `motions`."""
         found = self.motions
         if found is None:
             return None
@@ -179,7 +183,10 @@ class _SwarmPart(Part[Any]):
         }
 
     def _centres(self, motions: SwarmMotions, columns: Columns) -> Columns:
-        """Return the positions of the centres of mass, of a few constrained bodies; they start around the vertical."""
+        """Return the columns mx, my, mz of the centres of mass of up to 50 Suslov bodies or balls; otherwise nothing.
+
+        The bodies start at different angles about the vertical.
+        """
         mass = getattr(getattr(self.host, "solid", None), "mass", None)
         angles = self.angles[: len(motions.states)]
         if mass is None or "omega1" not in columns or self.angles.size > _IN_SPACE:
@@ -208,7 +215,10 @@ class _SwarmPart(Part[Any]):
 
     @cached_property
     def spread(self) -> tuple[Array, Array] | None:
-        """Times (m,) of the player, and quantiles (3, m) of the distance between neighbours; None if unknown."""
+        """Times (m,) of the player, and quantiles (3, m) of the distance of neighbours relative to that at the start.
+
+        The quantiles are 0.1, 0.5 and 0.9.  None without motions, and if fewer than two times are known.
+        """
         found = self.motions
         if found is None:
             return None
@@ -226,7 +236,7 @@ class _SwarmPart(Part[Any]):
 
     @property
     def expected(self) -> tuple[Array, Array] | None:
-        """The expected growth of distances (2,) at the first and the last time (2,); None if none is known."""
+        """The first and the last time (2,), and the expected growth of distances at them (2,); None if unknown."""
         rate = self.swarm.rate(self.host)
         if rate is None or self.spread is None:
             return None
@@ -235,14 +245,14 @@ class _SwarmPart(Part[Any]):
 
     @property
     def heights(self) -> Range:
-        """The vertical axis of the graph."""
+        """The range of the vertical axis of the graph, which includes 0.1 to 10."""
         curves = [] if self.spread is None else [self.spread[1].ravel(), *(self.expected or ())[1:]]
         values = np.log10(np.clip(np.concatenate([[0.1, 10.0], *curves]), *_SEEN))
         low, high = float(values.min()) - 0.1, float(values.max()) + 0.1
         return 10.0**low, 10.0**high
 
     def notes(self) -> Iterator[str]:
-        """Yield a note if the starts lie elsewhere than chosen, or the beads are not drawn to the end."""
+        """Yield a note if a second click is missing, the motions are shortened, or some beads fade out early."""
         if len(self._clicked) == 1:
             yield "Click a second point in the section to start the bodies on the line between both points."
         if not self.has_result("motions") or self.motions is None:
@@ -257,7 +267,7 @@ class _SwarmPart(Part[Any]):
     def reason(self) -> str:
         """Why there is no graph; empty if there is one."""
         if self.motions is None:
-            return "Choose more than one body in the group Swarm."
+            return "Choose more than one body in the group Swarm, with possible starts."
         return (
             "" if self.spread is not None else "Neighbours are too close, or lost too soon, to measure their distance."
         )
@@ -280,9 +290,17 @@ def _choice(name: str, label: str, options: tuple[str, ...], doc: str) -> Choice
 
 
 def with_swarm(state: type[Any], swarm: Swarm[Any]) -> type[Any]:
-    """Return a class of states with the additional choices of a swarm, which do not change other results."""
+    """Return a class of states with the additional choices of a swarm, which do not change other results.
+
+    Parameters
+    ----------
+    state : type
+        Class of the states without the swarm.
+    swarm : Swarm
+        The starts and columns.
+    """
     origins: tuple[str, ...] = (SPREAD, NEAR)
-    about = "All around, or within 2 % of a turn of the chosen start."
+    about = "All around, or within 1 % of a turn of the chosen start."
     if any(one.name == "starts" for one in fields(state)):
         origins, about = (*origins, LINE), f"{about} A line joins the last two points clicked in the section."
     specs = (

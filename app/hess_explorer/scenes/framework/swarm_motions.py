@@ -18,10 +18,10 @@ if TYPE_CHECKING:
 ERROR = 0.5
 """Largest error of a bead, in pixels; from then on it is not drawn."""
 _ASIDE, _SAFETY = 2.0**-50, 4.0
-"""How far other starts are from the first ones, relative to them, and the factor from their distance to an error."""
+"""Relative perturbation of the starts, and the factor from the distance of the two runs to the estimated error."""
 _FEW, _FIRST, _STRIDE, _TRIALS = 12, 64, 50.0, 6
-"""Number of motions from which the spacing of the samples is chosen, least number of first samples, their distance in
-pixels, and the number of trials."""
+"""Approximate number of motions from which the spacing of the samples is chosen; least number of samples in the first
+trial, and their largest distance in pixels; largest number of trials."""
 
 
 def turned_starts(motion: Motion, angles: Array) -> Array:
@@ -81,7 +81,7 @@ class SwarmMotions:
     halfway : array (n, m − 1, d)
         States halfway between these times.
     until : array (n,)
-        Index of the sample up to which each motion is right to half a pixel, a real number.
+        Index of the sample up to which each motion is right to half a pixel, a multiple of ½.
     errors : array (n,)
         Largest error of each motion over all its samples, in pixels, including those after `until`.
     """
@@ -108,7 +108,7 @@ def _interpolation_errors(states: Array, weights: Array) -> Array:
 def swarm_motions(
     motion: Motion, starts: tuple[tuple[float, ...], ...], most: int, period: float | None
 ) -> SwarmMotions:
-    """Return the motions from several starts, sampled so that cubic interpolation is right to half a pixel.
+    """Return the motions from several starts, sampled for cubic interpolation with an error below half a pixel.
 
     Parameters
     ----------
@@ -117,14 +117,14 @@ def swarm_motions(
     starts : tuple of tuple
         Initial states (n, d).
     most : int
-        Largest number of samples; if they do not suffice for the whole duration, the motions are shorter.
+        Largest number of samples, at least 4; if they do not suffice for the whole duration, the motions are shorter.
     period : float or None
-        The times are divisions of multiples of this period.
+        Period that is a multiple of the sample spacing, in the time of the system; None for any spacing.
 
     Returns
     -------
     SwarmMotions
-        The motions, each with the time up to which it is right.
+        The motions, each with the sample up to which it is right; the last time may lie beyond the duration.
     """
     body, weights = motion.system.at(motion.parameters), np.array(motion.weights)
 
@@ -150,7 +150,7 @@ def swarm_motions(
     errors = np.repeat(found.errors[:, None] * weights.max(), 2 * m - 2, axis=1)
     loose = np.flatnonzero(~(errors[:, 0] <= 0.1 * ERROR))
     if loose.size:
-        # Truncation errors exceed the bound even at the finest level: estimate the error by perturbed starts.
+        # These motions miss the bound, usually because round-off grows: estimate its growth from perturbed starts.
         others = ensemble(body, np.array(starts)[loose] * (1.0 + _ASIDE), found.times, STANDARD)
         errors[loose] = _SAFETY * (np.abs(others.states - found.states[loose]) * weights).max(axis=2)[:, 1:]
     errors += np.repeat(_interpolation_errors(found.states, weights), 2, axis=1)

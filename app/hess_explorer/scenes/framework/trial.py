@@ -54,7 +54,8 @@ class Trial(Generic[S]):
     unit : str
         Unit of the error.
     shared_setting : str
-        Setting of a plan that the reference shares with the measured level, because only equal points are compared.
+        Setting of a plan that the reference shares with the measured level, because only equal points are compared;
+        empty for none.
     tolerance : float
         Largest invisible error, in `unit`.
     condition : callable
@@ -81,7 +82,13 @@ class Trial(Generic[S]):
 
 @dataclass(frozen=True)
 class Refusal:
-    """The reason why a trial could not be measured, as a sentence; it is cached like a result."""
+    """The reason why a trial could not be measured; it is cached like a result.
+
+    Attributes
+    ----------
+    reason : str
+        A sentence for the user.
+    """
 
     reason: str
 
@@ -95,7 +102,10 @@ def bare_state(state: S) -> S:
 
 
 def level_costs(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refusal:
-    """Measure the time and error of each level for a state from `bare_state`.  Raises `OverBudget`."""
+    """Return the measured time and error of each level, or why there are none, for a state from `bare_state`.
+
+    Raises `OverBudget`.
+    """
     try:
         return tuple(measure(*_of(trial, state), shared_setting=trial.shared_setting))
     except OverBudget:
@@ -106,7 +116,10 @@ def level_costs(trial: Trial[S], state: S) -> tuple[LevelCost, ...] | Refusal:
 
 
 def sufficient_level(trial: Trial[S], state: S) -> str:
-    """Return the cheapest level with an invisible error; `standard` if none can be measured.  Raises `OverBudget`."""
+    """Return the cheapest level with full resolution and an invisible error, or the finest level if there is none.
+
+    Return `standard` if no error can be measured.  Raises `OverBudget`.
+    """
     try:
         return first_sufficient(measure(*_of(trial, state), shared_setting=trial.shared_setting), trial.tolerance)
     except OverBudget:
@@ -154,7 +167,7 @@ def curve_error(values: Array, exact: Array, height: float, period: float = math
     values, exact : array (n,)
         The curve and its reference.
     height : float
-        Length of the axis, in units of the curve.
+        Length of the axis, positive, in units of the curve.
     period : float
         Period of an angle; ∞ for other values.
     """
@@ -165,9 +178,19 @@ def curve_error(values: Array, exact: Array, height: float, period: float = math
 
 
 def boundary_error(curve: Array, exact: Array, axes: Axes) -> float:
-    """Return the largest distance in pixels from the visible points (n, 2) of a curve to the polyline `exact`.
+    """Return the largest distance in pixels from the visible points of the reference to the polyline of a curve.
 
-    NaN if either is empty.
+    Parameters
+    ----------
+    curve, exact : array (n, 2)
+        The curve and its reference.
+    axes : Axes
+        Axes of the plot.
+
+    Returns
+    -------
+    float
+        The distance; NaN if the curve is empty or no point of the reference is visible.
     """
     (x, y), (low, high) = exact.T, np.array([axes.x, axes.y]).T
     there = exact[(x >= low[0]) & (x <= high[0]) & (y >= low[1]) & (y <= high[1])]
@@ -176,16 +199,34 @@ def boundary_error(curve: Array, exact: Array, axes: Axes) -> float:
 
 
 def colour_error(values: Array, exact: Array) -> float:
-    """Return the 99th percentile of the error, in steps of a colour map that covers one turn; NaN without values."""
+    """Return the 99th percentile of the error, in steps of a colour map that covers one turn; NaN without values.
+
+    Parameters
+    ----------
+    values, exact : array
+        Values and their reference, of the same shape, in turns.
+    """
     return float(np.percentile(np.abs(values - exact), 99.0)) / _COLOUR if values.size else math.nan
 
 
 def section_error(
     orbits: Sequence[Array], truth: Sequence[Array], pixels: Sequence[float], periods: Sequence[float] = (math.inf,) * 2
 ) -> float:
-    """Return the largest error in pixels of regular orbits (n, 2); no level follows a chaotic orbit to its end.
+    """Return the largest error of the regular orbits, in pixels; no level follows a chaotic orbit to its end.
 
-    NaN if all orbits are chaotic.
+    Parameters
+    ----------
+    orbits, truth : sequence of array (n, 2)
+        Points of the orbits and of their references, in the same order.
+    pixels : sequence of float
+        Pixels per unit of each coordinate.
+    periods : sequence of float
+        Period of each coordinate, ∞ if it is not an angle.
+
+    Returns
+    -------
+    float
+        The error; NaN if all orbits are chaotic or empty.
     """
     aways = [errors_in_pixels(one, other, pixels, periods) for one, other in zip(orbits, truth, strict=True)]
     return max((float(away.max()) for away in aways if away.size and not has_diverged(away)), default=math.nan)

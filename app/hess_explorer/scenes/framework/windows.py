@@ -10,7 +10,7 @@ __all__ = ["Window", "box_window", "normalized_window", "pixels_in", "window_of"
 
 
 def normalized_window(text: Value) -> str:
-    """Return the text of a window with sorted corners; an empty string for an invalid window."""
+    """Return the text of a window with sorted corners; empty unless the text has two corners with an area between."""
     corners = points_of(text)
     if len(corners) != 2 or corners[0][0] == corners[1][0] or corners[0][1] == corners[1][1]:
         return ""
@@ -30,9 +30,22 @@ def pixels_in(window: Window) -> tuple[float, ...]:
 
 
 def box_window(corners: tuple[float, float, float, float], bounds: Window, name: str = "window") -> Values:
-    """Return the window parameter `name` for a box, clipped to the bounds.
+    """Return the value of the window parameter `name` for a box.
 
-    A box around the bounds means the whole picture; without an area nothing is returned.
+    Parameters
+    ----------
+    corners : (float, float, float, float)
+        Two opposite corners of the box: x0, y0, x1, y1.
+    bounds : Window
+        Largest window, to which the box is clipped.
+    name : str
+        Name of the parameter.
+
+    Returns
+    -------
+    mapping of str to str
+        The window as a text, which is empty if the box contains the bounds; an empty mapping if nothing is left of the
+        box.
     """
     (x0, y0), (x1, y1) = bounds
     left, right = max(x0, min(corners[0], corners[2])), min(x1, max(corners[0], corners[2]))

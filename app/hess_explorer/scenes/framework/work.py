@@ -20,7 +20,7 @@ _LEAST_COMPILE_TIME = 0.1
 """Least compile time, in seconds, that the status line reports."""
 
 AUTO = "auto"
-"""The accuracy that is set by measurement."""
+"""Choice of accuracy for which the level is measured."""
 
 T = TypeVar("T")
 
@@ -28,12 +28,25 @@ T = TypeVar("T")
 class Work:
     """The computation of one state at a level, through the cache.
 
+    Parameters
+    ----------
+    accuracy : str
+        Name of a level, or "auto".
+    is_preview : bool
+        True while a slider is held.
+
     Attributes
     ----------
     level_name : str
-        Name of the chosen level, also while a slider is held.
+        Name of the chosen level, also while a slider is held; "standard" until the level of "auto" is measured.
+    level : Level
+        The level of the computation; while a slider is held, at most the cheapest one with an invisible error.
     auto : bool
         True if the level is determined by measurement, see `set_measured_level`.
+    is_preview : bool
+        True while a slider is held.
+    pieces : int
+        Number of background computations so far, known ones included.
     """
 
     def __init__(self, accuracy: str = "standard", is_preview: bool = False) -> None:
@@ -51,17 +64,17 @@ class Work:
 
     @property
     def todo(self) -> list[Task[Any]]:
-        """The computations of missing results in order; refinements of pictures come last."""
+        """The computations of missing results in order; refinements of pictures only if nothing else is missing."""
         return self._todo or self._refinements
 
     def set_measured_level(self, name: str) -> None:
-        """Set the measured level of "auto"; until then it is `standard`."""
+        """Set the level of "auto" to the measured one; until then it is `standard`."""
         self._settled, self.level_name, self.level = True, name, level(name)
 
     def plan(self, kind: Kind, steady: bool = False) -> Plan:
         """Return the settings of the level for a kind of computation.
 
-        Scenes choose the number of points during a drag.
+        During a drag it keeps `share` and `cells` at 1, because the scenes choose the number of points.
 
         Parameters
         ----------
@@ -84,7 +97,7 @@ class Work:
         Parameters
         ----------
         what : str
-            Name of the result and "is" or "are".
+            Name of the result and "is" or "are"; by default the caption has no subject.
         """
         soon = "computed when the slider is released." if self.is_preview else "being computed."
         return f"{what} {soon}" if what else soon.capitalize()
@@ -120,8 +133,12 @@ class Work:
     def newest_results(self, chains: Sequence[Sequence[Task[T]]], last: bool = False) -> list[T | None]:
         """Return the last cached result of each chain of tasks, or None, and add the tasks after it to `todo`.
 
-        Each task of a chain continues the one before.  The earlier ones need not be cached any more.  With
-        `last`, all other computations come first.
+        Parameters
+        ----------
+        chains : sequence of sequences of Task
+            In each chain, every task continues the one before, which need not be cached any more.
+        last : bool
+            True if all other computations come first.
         """
         found, waiting = [], []
         for chain in chains:
@@ -139,13 +156,13 @@ class Work:
         return time.perf_counter() - self._start - compiling, compiling
 
     def summary(self) -> str:
-        """Return a short status line: level, promised error and computing time."""
+        """Return a short status line: level, promised error and computing time so far."""
         chosen = f"{AUTO}: {self.level.name}" if self.auto else self.level.name
         right = "the floor of double precision" if self.level.is_floor else f"1e−{-math.log10(self.level.promise):.0f}"
         return f"{chosen}, right to {right} · {1e3 * self._spent()[0]:.0f} ms"
 
     def status_end(self) -> str:
-        """Return the end of the status line: computing time, and "computed" or "cached"."""
+        """Return the end of the status line: compile time, computing time, and "computed" or "cached"."""
         spent, compiling = self._spent()
         once = f"{compiling:.1f} s to compile, once · " if compiling > _LEAST_COMPILE_TIME else ""
         duration = f"{once}{1e3 * spent:.1f} ms, {'computed' if self._misses else 'cached'}"
@@ -164,7 +181,16 @@ def orbit_status(orbit: Orbit | FreeMotion) -> list[str]:
 
 
 def accuracy_status(accurate: tuple[int, int | None] | None, crossings: int) -> Iterator[str]:
-    """Yield the status entry of a section: the last crossings with an error below half a pixel."""
+    """Yield the status entry of a section: up to which crossings the error is below half a pixel.
+
+    Parameters
+    ----------
+    accurate : (int, int or None) or None
+        Number of accurate crossings of the chosen orbit, and the median of some other orbits, None without others.
+        None until known; then nothing is yielded.
+    crossings : int
+        Requested number of crossings.
+    """
     if accurate is not None:
         own, others = (
             "to the end" if count is not None and count >= crossings else f"up to crossing {count}"
@@ -175,7 +201,7 @@ def accuracy_status(accurate: tuple[int, int | None] | None, crossings: int) -> 
 
 
 def drift_status(drifts: Iterable[Mapping[str, float]]) -> Iterator[str]:
-    """Yield the status entry of the largest drift of each integral."""
+    """Yield the status entry of the largest drift of each integral; nothing without drifts."""
     largest: dict[str, float] = {}
     for drift in drifts:
         largest |= {name: max(largest.get(name, 0.0), value) for name, value in drift.items()}
