@@ -33,7 +33,7 @@ export function button(name, onclick, ...parts) {
 }
 
 /**
- * Set properties of an element that have changed: one that is set again costs the page styles or a layout.
+ * Set the properties of an element that have changed; setting the same value again could force a style or layout update.
  * @template {object} Item
  * @param {Item} item
  * @param {Partial<Item>} properties

@@ -6,8 +6,8 @@ import { listen, tell } from "./bus.js"
 /** Whether the page is embedded in another one (embed=1). */
 export const isEmbedded = new URLSearchParams(location.search).get("embed") === "1"
 
-// The width and the height below which a page looks as on a phone; in the style sheets those of a whole page.  A smaller frame is
-// enough for an embedded part.
+// Width and height below which a page has the layout of a phone.  The style sheets contain those of a whole page; an embedded
+// page needs less room.
 const [WIDTH, HEIGHT] = isEmbedded ? ["480px", "320px"] : ["800px", "500px"]
 
 export const PHONE = matchMedia(`(width < ${WIDTH}), (height < ${HEIGHT})`)
@@ -16,11 +16,11 @@ export const NARROW = matchMedia("(width < 1500px)")
 // The text has room beside the pictures.
 export const ROOMY = matchMedia("(width >= 1800px)")
 const HAND = matchMedia("(pointer: coarse)")
-/** Return words for the hand at this screen: a finger taps where a mouse clicks. @param {string} words */
+/** Return instructions for this device: on a touch screen "click" becomes "tap". @param {string} words */
 export const byHand = (words) => (HAND.matches ? words.replaceAll(/\b([Cc])lick\b/g, (_, letter) => (letter === "C" ? "Tap" : "tap")) : words)
 export const CALM = matchMedia("(prefers-reduced-motion: reduce)")
 
-/** Return a style sheet with the sizes of this page: the sheets have those of a whole one. @param {string} sheet */
+/** Return a style sheet, written for a whole page, with the phone sizes of this page. @param {string} sheet */
 export const sized = (sheet) => (
   sheet.replaceAll(/(?<=width (<|>=) )800px/g, WIDTH).replaceAll(/(?<=height (<|>=) )500px/g, HEIGHT))
 

@@ -10,7 +10,7 @@
 export const within = (value, low, high) => Math.max(low, Math.min(high, value))
 
 /**
- * Return a number as it is read, with some significant digits at most.
+ * Return a number as text, with at most `digits` significant digits and a minus sign (−).
  * @param {number} value
  * @param {number} digits
  */

@@ -1,5 +1,5 @@
 // @ts-check
-// Words that the browser keeps: for all visits, or until the tab is closed.  Without storage the page works, and forgets them.
+// Texts in the storage of the browser: permanent, or until the tab is closed.  Without storage the page works, but forgets them.
 
 const PREFIX = "hess-explorer-"
 
@@ -18,7 +18,7 @@ function createStore(area) {
     }
   }
   return {
-    /** Return whether it keeps anything. */
+    /** Return whether the storage can be used. */
     works: () => attempt((area) => area.length >= 0, false),
     /** @param {string} key @returns {string | null} */
     get: (key) => attempt((area) => area.getItem(PREFIX + key), null),

@@ -1,7 +1,7 @@
 // @ts-check
 // Comparison of two states: the table of differences between the pinned one and the one on show, and both side by side, each in an
-// embedded page with its own controls.  These show the same moment in the same axes, and bodies and spheres turn together; they talk
-// on a channel of their own, which has their name.
+// embedded page with its own controls.  These show the same moment in the same axes, and bodies and spheres turn together; the two
+// windows have the same name, which is that of their channel.
 //
 // Each half is a page, not a second drawing in this page, so pictures, player and requests exist once per page.
 

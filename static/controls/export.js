@@ -1,6 +1,6 @@
 // @ts-check
 // The dialog Export: data, figure or film of a picture, or the whole state in one file; the command that makes the file, and the
-// Python code that computes the same.  The server makes the file, but for a PNG of what is no plot, which the page draws again.
+// Python code that computes the same.  The server makes the file, except a PNG of a picture that is not a plot: the page draws it.
 
 import { button, element } from "../base/elements.js"
 import { listen, tell } from "../base/bus.js"
@@ -11,7 +11,7 @@ import { captionOf, nameOf, titleOf } from "../pictures/picture.js"
 import { choices, copyButton, dialogOf, optionsOf, saveFile, section, snippet } from "./dialog.js"
 import { slowFileOf } from "./slow_file.js"
 
-// [least, most, first] number of values of a slider.
+// [minimum, maximum, default] number of values of a slider.
 /** @type {[number, number, number]} */
 const VALUES = [2, 400, 40]
 const FLAGS = new Set(["black", "grid"])
@@ -27,7 +27,7 @@ export function exportDialog(files) {
   const holds = Object.fromEntries(files.formats.map(([kind, , what]) => [kind, what]))
   const content = () => holds[format.value]
   const isAll = () => content() === "state"
-  /** Whether a browser draws the file: this one a PNG, that of the server everything else. @param {Wanted} what */
+  /** Return whether a browser draws the file: this one a PNG, the browser of the server any other. @param {Wanted} what */
   const isOfBrowser = ({ picture: name, format: kind }) => (holds[kind] === "film"
     || (holds[kind] === "figure" && scene.pictures.some((one) => one.name === name && one.kind !== "plot")))
   /** @type {SceneDescription | null} */

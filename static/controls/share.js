@@ -1,6 +1,6 @@
 // @ts-check
-// The dialog Share: the link, its QR code, and HTML that embeds parts of the page in another page; and the dialog Invite: QR code and
-// address by which an audience follows, and how many do.
+// The dialog Share: the link, its QR code, and HTML that embeds parts of the page in another page; and the dialog Invite: QR code
+// and address for followers, and their number.
 
 import { button, element } from "../base/elements.js"
 import { listen, tell } from "../base/bus.js"
@@ -9,13 +9,13 @@ import { gallery } from "../pictures/gallery.js"
 import { isFolded, labelOf, nameOf } from "../pictures/picture.js"
 import { choices, copyButton, dialogOf, section, snippet } from "./dialog.js"
 
-// The frame of what is embedded: its width, the pictures and sliders side by side in it, and the heights of a row of each and of
-// the player with the link.
+// Frame of an embedded page: its width in pixels, the numbers of pictures and of sliders side by side, and the heights of a row
+// of pictures, of a row of sliders, and of the player with the link.
 const WIDTH = 960
 const [PICTURES, SLIDERS] = [3, 4]
 const [PICTURE, SLIDER, FOOT] = [372, 78, 84]
 
-/** Return the height at which all parts are seen. @param {Record<"pictures" | "controls", string[]>} parts names */
+/** Return the height at which all parts are visible. @param {Record<"pictures" | "controls", string[]>} parts names */
 const heightOf = ({ pictures, controls }) => (
   Math.ceil(pictures.length / PICTURES) * PICTURE + Math.ceil(controls.length / SLIDERS) * SLIDER + FOOT)
 

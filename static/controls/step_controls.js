@@ -19,7 +19,7 @@ export function stepControls() {
   /** @type {HTMLButtonElement[]} */
   let words = []
   let isAlone = false
-  // Where the column of controls is beside the text, it is enough.
+  // These controls are not needed where the column of controls is beside the text.
   const isColumnAway = () => NARROW.matches || PHONE.matches || isPresenting() || isEmbedded || isAlone
   /** @type {ControlDescription[]} */
   let known = []

@@ -1,5 +1,5 @@
 // @ts-check
-// Says what a change did, above the pictures and to screen readers: once, after the hand rests and all parts of the state are there.
+// Says what a change did, above the pictures and to screen readers: once, when the user is idle and the state is complete.
 
 import { gallery } from "../pictures/gallery.js"
 import { captionOf, nameOf } from "../pictures/picture.js"
@@ -15,7 +15,7 @@ const MOST = 2
 const DIGITS = 4
 
 /**
- * Return the element, unseen, whose text screen readers announce.
+ * Return the visually hidden element whose text screen readers announce.
  * @param {HTMLElement} sentence says what the controls of a scene do, then what the last change did
  */
 export function announcer(sentence) {
@@ -32,7 +32,7 @@ export function announcer(sentence) {
   /** @type {ReturnType<typeof setTimeout>} */
   let resting = null
 
-  /** Return the numbers that the hand has changed, in words. */
+  /** Return the numbers that the user has changed, as text. */
   function changes() {
     const found = [...now].filter(([name, value]) => before.has(name) && before.get(name) !== value)
       .map(([name, value]) => `${symbols.get(name)} ${written(before.get(name), DIGITS)} → ${written(value, DIGITS)}`)

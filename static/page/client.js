@@ -21,12 +21,12 @@ import { handleCommands, handlePrinting, setTheme } from "./commands.js"
 import { isFirstVisit } from "./lessons.js"
 
 // The next part of a state is requested after a pause as long as the last part took: half of the time is left to the user,
-// and a slow server is asked less often.  While nothing new arrives, pauses grow to a quarter of the time since then, so that
-// a class that waits for long work does not keep the server busy with questions.
+// and a slow server gets fewer requests.  While nothing new arrives, the pause grows to a quarter of the time since the last
+// part, so that a class that waits for a long computation does not keep the server busy with requests.
 const PAUSE_BETWEEN_PIECES = 80
 const SHARE_OF_WAIT = 0.25
-// The server computes a new state further once it is asked again.  This leaves the browser time to bring the pictures to the
-// screen, and the user time to move on.
+// The server continues the computation of a new state after the next request.  The pause leaves the browser time to paint the
+// pictures, and the user time to move on.
 const PAUSE_BEFORE_PIECES = 40
 const LOST = "Connection to the server lost. This page continues as soon as the server answers."
 

@@ -1,6 +1,6 @@
 // @ts-check
-// The legend or the words of the scene on show, as HTML from the project's own files.  How much of the words is shown, the idea,
-// what a student needs or all that the paper has, is kept in the browser.
+// The legend or the text of the scene on show, as HTML from the project's own files.  The browser remembers how much of the text
+// is shown: the idea, the level of a student, or everything in the paper.
 
 import { listen } from "../base/bus.js"
 import { element, update } from "../base/elements.js"
@@ -13,7 +13,7 @@ const ALL = "paper"
 
 /**
  * Return the menu of depths of a text.
- * @param {HTMLElement} text its first section is what one sees, its first paragraph the idea
+ * @param {HTMLElement} text its first section describes the pictures, its first paragraph the idea
  */
 function depthMenu(text) {
   const select = element("select", {

@@ -1,5 +1,5 @@
 // @ts-check
-// Records what is done by hand as the Markdown of a lesson, to be edited: each state that has settled is a step.
+// Records the actions of the user as the Markdown of a lesson, to be edited: each settled state becomes a step.
 
 import { saveFile } from "../controls/dialog.js"
 import { listen, tell } from "../base/bus.js"

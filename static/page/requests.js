@@ -84,7 +84,7 @@ export function createRequests({ send, changed, hidden, known }) {
         requested, held: grasped, values: {}, ...pending, scene: entering ? scene : null,
         hidden: entering ? null : hidden(),
       })
-      // Changes of the page before are sent once: should they end the server, they would end it again and again.
+      // Send changes of the previous page only once: if they crash the server, they would crash it again and again.
       flying = isResumed ? {} : pending
       isResumed = false
       pending = {}

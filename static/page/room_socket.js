@@ -1,5 +1,5 @@
 // @ts-check
-// The websocket of a room, see "rooms/messages.py", and what a tab keeps of its room.
+// The websocket of a room, see "rooms/messages.py", and the room that a tab remembers.
 
 import { tabStore } from "../base/stores.js"
 import { answering, watch } from "./websocket.js"
@@ -19,7 +19,7 @@ const LETTERS = "23456789ABCDEFGHJKLMNPQRSTUVWXYZ"
 /** Return a random code of six letters, see `CODE` in "rooms/messages.py". */
 export const newCode = () => Array.from(crypto.getRandomValues(new Uint8Array(6)), (byte) => LETTERS[byte % LETTERS.length]).join("")
 
-/** Return a name that nobody guesses. */
+/** Return a random name that cannot be guessed. */
 export const newName = () => Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) => byte.toString(16).padStart(2, "0")).join("")
 
 /** Return the address at which the audience follows. @param {string} code */
@@ -91,7 +91,7 @@ export function openRoom(code, { first, receive, connected = () => {}, ended }) 
 }
 
 /**
- * Return a function that acts with the newest argument, at most once in each pause, and always with the last one.
+ * Throttle a function: call it with the newest argument, at most once per `PAUSE`, and always with the last argument.
  * @template Argument
  * @param {(argument: Argument) => void} act
  */

@@ -33,9 +33,9 @@ export function spareStyles(plot) {
 }
 
 /**
- * Keep each layer from preparing what nobody sees, as no tool of Bokeh is on this page: the glyphs for selected, other, muted
- * and decimated points, each of which costs as much as the glyph that is painted, except for its painting; and the spatial
- * index of its points, by which Bokeh finds those in the frame.
+ * Keep each layer from preparing parts that only the tools of Bokeh would show, because this page has none: the glyphs for
+ * selected, other, muted and decimated points, each of which costs as much as the visible glyph before painting; and the spatial
+ * index of its points, with which Bokeh finds those in the frame.
  * @param {PlotView} plot
  */
 export function spareUnseen(plot) {

@@ -23,7 +23,7 @@ const mean = (values) => values.reduce((sum, one) => sum + one, 0) / values.leng
 const axesOf = ({ model: { x_scale: xScale, y_scale: yScale, below: [x], left: [y] } }) => [[xScale, x], [yScale, y]]
 
 /**
- * Return how far points are apart on the average, along both axes; on a logarithmic axis it is the logarithm of a ratio.
+ * Return the mean distance of pairs of points along each axis; on a logarithmic axis, of their logarithms.
  * @param {PlotView} plot
  * @param {[number[], number[]][]} pairs
  */

@@ -1,7 +1,6 @@
 // @ts-check
-// Layers of pictures, as a lesson speaks of them: it hides one at a time, with its label, and the captions that would tell about it.
-// Words that name a layer light it up while they have the pointer or the focus, and a click leads with the picture if it does not
-// lead.
+// Layers of pictures in a lesson: it hides one at a time, with its label and the captions that would reveal it.  A link to a layer
+// highlights it while the link has the pointer or the focus; a click puts its picture in the lead.
 
 import { tell } from "../base/bus.js"
 import { clipTo } from "./frame.js"

@@ -1,5 +1,5 @@
 // @ts-check
-// PNG files that say where they come from.
+// PNG files with their resolution, and with texts as metadata.
 
 const METRE = 39.37
 // Number of bytes of the signature and the first chunk, after which other chunks may follow.

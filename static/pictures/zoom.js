@@ -11,7 +11,7 @@ import { button } from "../base/elements.js"
 import { isEmbedded } from "../base/modes.js"
 
 const REST = 250
-// A click waits so long for a second one.
+// Milliseconds that a click waits for a second one.
 const DOUBLE = 250
 // Logarithm of the factor for a pixel of the wheel; a pinch on a touchpad comes as a slower wheel.
 const [WHEEL, PINCH] = [0.002, 0.01]

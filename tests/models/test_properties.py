@@ -23,15 +23,15 @@ def spread(low, high):
 directions = st.tuples(*[st.floats(-1.0, 1.0)] * 3).filter(lambda gamma: hypot(*gamma) > 1e-3)
 vectors = directions.map(lambda gamma: unit_vector(gamma)[0])
 omegas = st.tuples(spread(-3, 1), spread(-3, 1))
+signed, field = spread(-3, 3), spread(-3, 2)
+positive = signed.map(abs)
 
 PARAMETERS = {
-    "suslov": st.tuples(*[spread(-3, 3).map(abs)] * 2, *[spread(-3, 3)] * 2, *[spread(-3, 2)] * 3),
-    "ball": st.tuples(
-        *[spread(-3, 3).map(abs)] * 2, *[spread(-3, 3)] * 2, spread(-3, 3).map(abs), *[spread(-3, 2)] * 3
-    ),
-    "euler-poisson": st.tuples(*[spread(-3, 3).map(abs)] * 3, *[st.floats(-1.0, 1.0)] * 3, spread(-3, 2)),
-    "hess": st.tuples(spread(-4, 2), spread(-3, 2)),
-    "plane-potential": st.tuples(*[spread(-3, 3).map(abs)] * 2, *[spread(-3, 2)] * 4),
+    "suslov": st.tuples(positive, positive, signed, signed, field, field, field),
+    "ball": st.tuples(positive, positive, signed, signed, positive, field, field, field),
+    "euler-poisson": st.tuples(*[positive] * 3, *[st.floats(-1.0, 1.0)] * 3, field),
+    "hess": st.tuples(spread(-4, 2), field),
+    "plane-potential": st.tuples(positive, positive, *[field] * 4),
 }
 
 

@@ -26,6 +26,7 @@ W1, W2, N1, N2, N3 = STATE
 A, B = sp.symbols("a b", real=True)
 V = [sp.sympify(rate) for rate in HESS.field(STATE, (A, B))]
 """The vector field of `eq01`."""
+INTEGRALS = HESS.integrals(STATE, (A, B))
 
 
 def along(field, function):
@@ -41,7 +42,7 @@ def test_the_rotation_about_n3_keeps_the_integrals_and_is_turned_into_a_multiple
     u = [-W2, W1, -N2, N1, sp.Integer(0)]
     bracket = [sp.expand(along(u, v) - along(V, one)) for v, one in zip(V, u, strict=True)]
     assert bracket == [sp.expand(A * W1 * one) for one in u]
-    assert [sp.expand(along(u, integral)) for integral in HESS.integrals(STATE, (A, B)).values()] == [0, 0, 0]
+    assert [sp.expand(along(u, integral)) for integral in INTEGRALS.values()] == [0, 0, 0]
 
 
 def test_without_a_field_the_solution_of_the_paper_is_one_and_w1_a_repels_it():
@@ -53,7 +54,7 @@ def test_without_a_field_the_solution_of_the_paper_is_one_and_w1_a_repels_it():
     rates = [rate.subs(B, 0).subs(on_it, simultaneous=True) for rate in V]
     assert [sp.simplify(sp.diff(place, t) - rate) for place, rate in zip(solution, rates, strict=True)] == [0] * 5
     E, F1, F2 = (
-        sp.simplify(one.subs(B, 0).subs(on_it, simultaneous=True)) for one in HESS.integrals(STATE, (A, B)).values()
+        sp.simplify(one.subs(B, 0).subs(on_it, simultaneous=True)) for one in INTEGRALS.values()
     )
     assert [sp.simplify(E - W1**2 / 2), F1, sp.simplify(F2 - W1 * sp.cos(theta))] == [0, 1, 0]
     # Neighbouring motions have w2 ~ e^{a w1 t}.
@@ -70,12 +71,12 @@ def test_at_f_0_a_function_of_the_position_is_kept_the_hess_case_is_holonomic():
     alpha_rate = -rates[4] / sp.sin(ALPHA)
     beta_rate = (ON_SPHERE[N1] * rates[3] - ON_SPHERE[N2] * rates[2]) / sp.sin(ALPHA) ** 2
     Phi_rate = beta_rate / sp.cos(BETA) + A * alpha_rate
-    F2 = HESS.integrals(STATE, (A, B))["F2"].subs(ON_SPHERE)
+    F2 = INTEGRALS["F2"].subs(ON_SPHERE)
     factor = (A * ON_SPHERE[N2] + ON_SPHERE[N3]) / (sp.sin(ALPHA) * ON_SPHERE[N1])
     assert sp.simplify(Phi_rate - factor * F2) == 0
     # F2 = 0 leaves α free: n3 moves as a pendulum, whatever β is.
     free = sp.solve(F2, W1)[0]
-    energy = HESS.integrals(STATE, (A, B))["E"].subs(ON_SPHERE).subs(W1, free)
+    energy = INTEGRALS["E"].subs(ON_SPHERE).subs(W1, free)
     assert sp.simplify(energy - (alpha_rate.subs(W1, free) ** 2 / 2 - B * sp.cos(ALPHA))) == 0
 
 

@@ -29,8 +29,6 @@ if __name__ == "__main__":
 from hess_mechanics import Plane, systems
 from oracle.labelled import MOTIONS, returns_of
 
-
-
 # ---- integration
 
 

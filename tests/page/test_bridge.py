@@ -19,5 +19,5 @@ def test_the_sliders_of_the_side_that_is_not_given_are_disabled_and_show_it(expl
     assert explorer.box("I22").input_value() == "0.5"
     explorer.change(explorer.choose, "given", "Suslov–Hess")
     assert disabled() == set(sides["Euler–Poisson"])
-    explorer.change(lambda: explorer.slide(I22=0.7))
+    explorer.move(I22=0.7)
     assert explorer.shown("I2")[0] == approx(0.7 + 0.25**2 / 0.7, rel=1e-5)

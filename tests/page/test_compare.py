@@ -64,7 +64,7 @@ H_AXIS = """() => {
 def test_both_states_are_seen_side_by_side_where_time_and_rotation_are_the_same(explorer):
     page = explorer.page
     page.locator(".param-pin").click()
-    explorer.change(lambda: explorer.slide(h=1.8))
+    explorer.move(h=1.8)
     page.locator(".param-beside").click()
     dialog = page.get_by_role("dialog", name="Side by side")
     halves = [page.locator("iframe.half").nth(i).element_handle().content_frame() for i in range(2)]
@@ -102,7 +102,7 @@ def test_a_pinned_state_is_seen_beside_others_named_in_numbers_and_gone_back_to(
     pin.click()
     assert pin.get_attribute("aria-pressed") == "true"
     assert rows(explorer) == {}
-    explorer.change(lambda: explorer.slide(h=1.8))
+    explorer.move(h=1.8)
     assert len(ghosts(explorer)) == 5
     found = rows(explorer)
     assert found["h"] == ("1.5", "1.8")

@@ -93,11 +93,11 @@ def test_the_menus_of_accuracy_and_examples_set_the_state_and_say_when_it_is_lef
         # An example keeps the accuracy.
         assert explorer.chosen("accuracy") == "precise"
         assert_orbit(explorer, {**DEFAULTS, "h": 0.2, "f": 0.5})
-        explorer.change(lambda: explorer.slide(phi0=1.0))
+        explorer.move(phi0=1.0)
         assert explorer.chosen("preset") == "Choose an example…"
     explorer.change(explorer.choose, "preset", "Two limit cycles")
     explorer.sent.clear()
-    explorer.change(lambda: explorer.slide(h=2.0))
+    explorer.move(h=2.0)
     # The menu that follows the state asks for none itself.
     assert [values for frame in explorer.sent if (values := json.loads(frame)["values"])] == [{"h": 2}]
 
@@ -207,13 +207,13 @@ def test_space_and_arrow_keys_work_the_player_unless_they_mean_something_where_t
 def test_the_motion_goes_on_along_the_new_orbit_when_a_slider_moves(explorer):
     explorer.page.locator(".param-play").click()
     wait_time(explorer, "t > 0.4")
-    explorer.change(lambda: explorer.slide(h=0.3))
+    explorer.move(h=0.3)
     t = assert_on_orbit(explorer, {**DEFAULTS, "h": 0.3})
     assert explorer.playing
     wait_time(explorer, f"t > {t + 0.3}")
     explorer.page.locator(".param-play").click()
     # An orbit that ends earlier takes the time with it.
     explorer.set_time(30.0)
-    explorer.change(lambda: explorer.slide(span=10.0))
+    explorer.move(span=10.0)
     assert explorer.time == approx(10.0, rel=1e-6)
     assert_on_orbit(explorer, {**DEFAULTS, "h": 0.3, "span": 10.0})

@@ -29,7 +29,7 @@ def command_of(dialog):
 @pytest.fixture
 def dialog(explorer):
     """The open dialog."""
-    explorer.change(lambda: explorer.slide(f=0.28))
+    explorer.move(f=0.28)
     # The address has the view of the picture that was turned last.
     explorer.tell("turn", ["body", 0.5, 0.3])
     explorer.wait_url(f="0.28", az="0.5000")

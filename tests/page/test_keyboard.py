@@ -78,7 +78,7 @@ def test_a_changed_verdict_is_announced_once_and_the_clock_never(explorer):
     said = page.locator(".moves").inner_text()
     assert said.startswith("I₂₃ ") and "→ 0. " in said and f"Circle map: {verdict}" in said
     # The same verdict with other numbers is not said again.
-    explorer.change(lambda: explorer.slide(phi0=1.0))
+    explorer.move(phi0=1.0)
     page.wait_for_timeout(1200)
     assert len(page.evaluate("heard")) == 1
     expect(page.locator(".moves")).to_contain_text("→ 1. No verdict changed.")

@@ -8,7 +8,6 @@ import pytest
 from PIL import Image
 from playwright.sync_api import expect
 
-from hess_explorer.headless.browser import wait_ready
 from hess_explorer.lessons import package_lessons, suggestions
 from hess_explorer.lessons.collection import read_paths
 from hess_explorer.lessons.reading import read

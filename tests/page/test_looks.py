@@ -297,7 +297,7 @@ def test_a_picture_leads_by_its_key_or_a_click_and_the_link_keeps_it(look_at):
         assert_in_sight(points_of(page, HESS), *SIZES["laptop"], 6)
     # The others live.
     before = tab.caption(last)
-    tab.change(lambda: tab.slide(h=0.2))
+    tab.move(h=0.2)
     assert tab.caption(last) != before
     keys.press("3")
     keys.press("Shift+Digit1")
@@ -368,7 +368,7 @@ def test_no_rule_of_wcag_is_broken(look_at):
     tab = look_at(HESS)
     page, box = tab.page, tab.box("h")
     page.get_by_role("button", name="Compare").click()
-    tab.change(lambda: tab.slide(I22=0.5, I23=1.5))
+    tab.move(I22=0.5, I23=1.5)
     tab.type("h", "abc")
     # The server parses everything that is not a plain number.
     page.locator(".param-h .exact[aria-invalid=true]").wait_for()

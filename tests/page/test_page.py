@@ -91,7 +91,7 @@ def test_a_page_that_has_lost_its_server_says_so_and_goes_on_with_all_changes_wh
     explorer, websocket = with_websocket
     page = explorer.page
     sign = page.locator(".text.busy")
-    explorer.change(lambda: explorer.slide(f=0.5))
+    explorer.move(f=0.5)
     asked = []
 
     def keep(route):
@@ -150,7 +150,7 @@ def test_a_frozen_server_is_named_within_ten_seconds_and_the_page_goes_on_with_i
 def test_the_link_follows_what_the_user_does_and_opens_the_same_page_elsewhere(explorer, browser):
     """All of the pictures is compared in "test_by_hand"."""
     values = {"I22": 1.25, "I23": -0.5, "h": 0.75, "span": 15.0, "f": 1e-3}
-    explorer.change(lambda: explorer.slide(I22=1.25, I23=-0.5, h=0.75, span=15.0))
+    explorer.move(I22=1.25, I23=-0.5, h=0.75, span=15.0)
     explorer.change(explorer.type, "f", "1e-3")
     explorer.change(explorer.choose, "accuracy", "reference")
     explorer.set_time(7.5)
@@ -198,7 +198,7 @@ def test_a_script_in_any_key_of_a_link_is_neither_run_nor_shown(explorer):
     assert "no parameter '…'" in explorer.text("notes")
     # The page's own link is clean again; the first change of the user takes the notes of the link away.
     assert "pwned" not in urlencode(explorer.wait_url(v="1"))
-    explorer.change(lambda: explorer.slide(h=0.3))
+    explorer.move(h=0.3)
     assert explorer.text("notes") == ""
 
 

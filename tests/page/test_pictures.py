@@ -101,7 +101,7 @@ def test_what_is_called_painted_is_painted(explorer):
 
 
 def test_a_picture_that_is_folded_is_not_computed(explorer):
-    explorer.change(lambda: explorer.slide(h=0.2))
+    explorer.move(h=0.2)
     assert flat(explorer.data("torus-density")) == []
     assert not explorer.picture("torus").is_visible()
     explorer.unfold("torus")
@@ -110,7 +110,7 @@ def test_a_picture_that_is_folded_is_not_computed(explorer):
     explorer.fold("torus")
     # The browser tells what is in sight a moment after it has changed.
     wait_frames(explorer)
-    explorer.change(lambda: explorer.slide(h=0.4))
+    explorer.move(h=0.4)
     assert explorer.data("torus-density") == first
     explorer.unfold("torus")
     assert explorer.data("torus-density") != first

@@ -54,7 +54,7 @@ def lecture(tab, browser):
     page = tab.page
     with own_tab(browser, tab.base, PHONE, **TOUCHED) as phone:
         tab.begin_lesson(LESSON.name, STEP)
-        page.locator(".param-invite").dispatch_event("click")
+        tab.tool("invite")
         page.locator(".invite .code svg").wait_for()
         [address] = read(page.locator(".invite .code").screenshot())
         assert address.endswith(page.locator(".room-address").inner_text())
@@ -65,7 +65,7 @@ def lecture(tab, browser):
         yield tab, phone, address.rpartition("/")[2]
     if page.locator(".param-invite").get_attribute("aria-pressed") == "true":
         page.keyboard.press("Escape")
-        page.locator(".param-invite").dispatch_event("click")
+        tab.tool("invite")
         page.get_by_role("button", name="End the lecture").click()
         page.locator(".param-invite[aria-pressed=false]").wait_for(state="attached")
         page.keyboard.press("Escape")
@@ -161,7 +161,7 @@ def test_a_follower_plays_alone_and_comes_back_and_the_room_outlives_a_reload(le
     tab.show("loxodrome")
     follows(small, "scene=loxodrome")
     assert len(sockets) == 1
-    page.locator(".param-invite").dispatch_event("click")
+    tab.tool("invite")
     page.get_by_role("button", name="End the lecture").click()
     for one in (small, page):
         one.get_by_text("The lecture has ended.").wait_for()

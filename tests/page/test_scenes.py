@@ -119,7 +119,7 @@ CHANGED = {"I22": 1.25, "I23": -0.5, "b3": -2.0, "h": 0.75, "f": -0.3, "phi0": 2
 def test_a_scene_changes_in_place_and_back_with_all_that_was_chosen(explorer):
     page = explorer.page
     page.evaluate("window.same = true")
-    explorer.change(lambda: explorer.slide(**CHANGED))
+    explorer.move(**CHANGED)
     explorer.change(explorer.choose, "accuracy", "precise")
     page.locator(".param-speed").select_option("2")
     explorer.set_time(7.5)
@@ -159,7 +159,7 @@ def test_ten_changes_in_quick_succession_leave_one_scene_and_nothing_of_the_othe
     assert explorer.page.locator(".picture:visible").count() == 6
     # One change is asked for once, and one key is pressed for one player.
     explorer.sent.clear()
-    explorer.change(lambda: explorer.slide(h=0.75))
+    explorer.move(h=0.75)
     assert [values for frame in explorer.sent if (values := json.loads(frame)["values"])] == [{"h": 0.75}]
     explorer.page.evaluate("document.activeElement?.blur()")
     explorer.page.keyboard.press("ArrowRight")

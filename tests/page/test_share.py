@@ -35,7 +35,7 @@ BOXES = f"""() => {{
 
 def test_the_dialog_gives_link_and_code_and_what_embeds_opens_the_same_state(explorer, browser, server):
     tab, page = explorer, explorer.page
-    tab.change(lambda: tab.slide(h=1.2, f=0.3))
+    tab.move(h=1.2, f=0.3)
     page.get_by_role("button", name="Share").click()
     page.get_by_role("button", name="Link").click()
     dialog = page.get_by_role("dialog", name="Share")
@@ -74,7 +74,7 @@ def test_the_dialog_gives_link_and_code_and_what_embeds_opens_the_same_state(exp
         assert all(x >= 0 and x + w <= wide and y >= 0 and y + h <= high for x, y, w, h in boxes)
         assert min(w for _, _, w, h in boxes if w == h) >= 250
         for one in (framed, tab):
-            one.change(lambda one=one: one.slide(h=0.7))
+            one.move(h=0.7)
         assert framed.data("data-orbit") == tab.data("data-orbit")
         assert framed.caption("circle") == tab.caption("circle")
         opener = inner.get_by_role("link", name="Open in Hess Explorer")

@@ -75,7 +75,7 @@ def test_a_click_on_the_branch_shows_that_orbit_and_away_from_it_nothing_happens
 def test_without_a_periodic_orbit_the_picture_says_what_to_do(name):
     scene = SCENES[name]
     view = View(scene, {"orbits": 0.0} if name == "euler-poisson" else {}, seen=["branch"])
-    assert view.text["branch"].split("\n")[1].startswith("No periodic orbit is chosen. Choose a periodic orbit")
+    assert view.verdict("branch").startswith("No periodic orbit is chosen. Choose a periodic orbit")
     assert "Choose a Periodic orbit" in " ".join(view.data["branch-message"]["text"][0].split())
     assert not any("branch" in line for line in (*view.report.quantities, *view.report.notes, view.report.status))
     # Out of sight it is not computed.
@@ -108,7 +108,7 @@ def test_while_a_slider_is_held_only_what_is_known_is_drawn():
         assert len(one) == len(other) > 20
         assert one == approx(other)
     moved = View(SCENES["ball-section"], {**values, "b3": 0.71}, seen=["branch"], is_preview=True, whole=False)
-    assert moved.text["branch"].split("\n")[1] == "A periodic orbit is computed when the slider is released."
+    assert moved.verdict("branch") == "A periodic orbit is computed when the slider is released."
     assert moved.result.branch.branches == []
     assert moved.report.todo == ()
 

@@ -89,12 +89,15 @@ def test_a_click_or_drag_sets_both_parameters_and_computes_no_cell_again():
     assert (held.chart_part.cells, held.work.todo) == (None, [])
 
 
-@pytest.mark.parametrize("key", [key for key, scene in SCENES.items() if scene.chart_set is not None])
-def test_the_menu_offers_every_number_of_the_computations(key):
-    charts = SCENES[key].chart_set
+@pytest.mark.parametrize("scene", [one for one in SCENES.values() if one.chart_set], ids=lambda one: one.name)
+def test_the_menu_offers_every_number_of_the_computations_and_each_exists(scene):
+    charts = scene.chart_set
     offered = {name for one in charts.sources for name in find(one.key).numbers}
     assert {*charts.numbers} == offered
-    assert {*next(spec for spec in SCENES[key].specs if spec.name == "chart").options} == offered
+    assert {*next(spec for spec in scene.specs if spec.name == "chart").options} == offered
+    for option, (charted, number) in charts.numbers.items():
+        find(charted.key).number(number)
+        assert charted.values(scene.of({**scene.defaults(), "chart": option}))
 
 
 def test_the_start_of_a_motion_in_a_section_is_a_place_of_the_chart():
@@ -151,14 +154,6 @@ def test_a_periodic_number_and_categories_have_their_own_colours():
 def test_a_folded_chart_computes_nothing():
     state = TORI.compute(TORI.defaults(), TORI.open_pictures, False)
     assert "chart_part" not in vars(state)
-
-
-@pytest.mark.parametrize("scene", [one for one in SCENES.values() if one.chart_set], ids=lambda one: one.name)
-def test_every_number_of_a_scene_exists(scene):
-    for option, (charted, number) in scene.chart_set.numbers.items():
-        find(charted.key).number(number)
-        state = scene.of({**scene.defaults(), "chart": option})
-        assert charted.values(state)
 
 
 def test_the_file_of_a_chart_holds_its_numbers():

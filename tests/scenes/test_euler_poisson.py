@@ -110,9 +110,9 @@ def test_a_drag_shows_the_section_at_once_with_fewer_orbits():
 
 def test_where_there_are_no_separatrices_the_picture_says_why():
     view = View(EP, {"orbits": 0.0, "count": 20.0, "h": 5.0, "f": 0.8}, seen=["split"])
-    assert view.text["split"].split("\n")[1] == "No separatrices found here."
+    assert view.verdict("split") == "No separatrices found here."
     assert "no limit cycles here" in view.data["split-message"]["text"][0].replace("\n", " ")
     assert "splits" not in " ".join(view.report.notes)
     # A split that is smaller than its error is not denied.
     view = View(EP, {"orbits": 0.0, "count": 20.0, "away": 1e-12}, seen=["split"])
-    assert view.text["split"].split("\n")[1].startswith("No separatrix splitting is visible. Less than ")
+    assert view.verdict("split").startswith("No separatrix splitting is visible. Less than ")

@@ -41,7 +41,7 @@ from support.board import (
 )
 from support.captions import texts_in
 from support.thorough import examples, sample
-from support.view import View, values_of
+from support.view import FEW, View
 
 # A state with other axes than the default one.
 OTHERS = {
@@ -404,8 +404,6 @@ def test_the_errors_of_every_admissible_state_are_computed_and_drawn_too(data):
     assert_drawn(ACCURACY, values, data.draw(visible_trials(ACCURACY), label="in sight"), True)
 
 
-FEW = {"orbits": 4.0, "count": 20.0, "long": 20.0, "span": 5.0}
-"""For what does not depend on how much is shown."""
 EXTREME = [
     ("ball-section", {"h": 1e-3, "psi": 3.1}),
     ("ball-section", {"I11": 100.0, "I22": 0.01}),
@@ -423,7 +421,7 @@ EXTREME = [
 def test_extreme_values_are_shown(name, values):
     scene = SCENES[name]
     few = {key: value for key, value in FEW.items() if key in scene.defaults()}
-    View(scene, {**few, **values}, seen=scene.open_pictures, noted=True).assert_finite()
+    View(scene, {**few, "span": 5.0, **values}, seen=scene.open_pictures, noted=True).assert_finite()
 
 
 REFUSED = [
@@ -474,15 +472,6 @@ def test_at_the_separatrix_and_far_from_it_the_slow_methods_run_without_a_warnin
     ):
         values = {**ACCURACY.defaults(), **change}
         assert_drawn(ACCURACY, values, ACCURACY.pictures, False)
-
-
-def test_a_body_that_is_none_is_shown_and_said():
-    _, report = shown(HESS, {**HESS.defaults(), **values_of(HESS, "Strong contraction")})
-    assert any("Not a rigid body" in note for note in report.notes)
-    assert any(re.search(r"rigid body\? no", row) for row in report.quantities)
-    _, report = shown(HESS, HESS.defaults())
-    assert not any("Not a rigid body" in note for note in report.notes)
-    assert any(re.search(r"rigid body\? yes", row) for row in report.quantities)
 
 
 # --- Sessions: what the browser may send -------------------------------------------------------------

@@ -1,6 +1,5 @@
 """The scene "loxodromic pendulum": the track in space, and the status line."""
 
-import re
 from math import pi
 
 import numpy as np
@@ -8,7 +7,7 @@ import pytest
 from pytest import approx
 
 from support.loxodrome import LOXODROME, slope
-from support.view import NUMBER, View
+from support.view import View
 
 
 def curve_of(view, picture, look):
@@ -41,13 +40,6 @@ def test_the_computed_track_lies_on_the_loxodrome_and_both_are_seen_from_below_u
     assert centre[0] == approx([0.0, 0.0, -1.0], abs=1e-6)
     assert np.max(np.abs(centre[:, 0])) < 1e-4
     assert centre[:, 2] == approx(view.data["data-orbit"]["height"], abs=1e-6)
-
-
-def test_the_status_line_says_error_drift_and_how_orthonormal_it_was():
-    status = View(LOXODROME, {"accuracy": "precise"}).report.status
-    assert re.search(rf"^precise: orbit .*(error ≤ {NUMBER} \(ok\)|floor)", status)
-    assert "(e,γ)" in status
-    assert re.search(rf"γ, e orthonormalised, defect {NUMBER}", status)
 
 
 # --- The body of the Suslov–Hess case ----------------------------------------------------------------

@@ -14,14 +14,14 @@ from hess_explorer.scenes.framework.windows import pixels_in
 from hess_explorer.views.layers import Axes
 from hess_explorer.views.plane.periodic import visible_parts
 from hess_mechanics.dynamics.periodic import difference
-from support.view import View, values_of
+from support.view import FEW, View, values_of
 
 NAMES = ("suslov", "quartic", "ball-section", "euler-poisson")
 LIGHT = {
-    "suslov": {"orbits": 4.0, "count": 20.0, "long": 20.0},
+    "suslov": FEW,
     "quartic": {"count": 20.0},
     "ball-section": {"count": 20.0},
-    "euler-poisson": {"orbits": 4.0, "count": 20.0, "long": 20.0},
+    "euler-poisson": FEW,
 }
 LAYERS = ("attracts", "neither", "repels", "stable-manifold", "unstable-manifold", "homoclinic")
 PICTURES = {
@@ -62,7 +62,7 @@ def test_a_manifold_ends_where_the_map_jumps_and_no_line_is_drawn_across():
 def test_where_every_orbit_of_the_ball_closes_the_chosen_one_is_parabolic():
     given = {**values_of(scenes()["ball-section"], "Returning orbits"), **LIGHT["ball-section"]}
     view = shown("ball-section", "period 1", *given.items())
-    assert view.text["section"].split("\n")[1].startswith("Period 1, parabolic. Multipliers μ = 1, 1, error ")
+    assert view.verdict("section").startswith("Period 1, parabolic. Multipliers μ = 1, 1, error ")
     assert drawn(view) == {"neither"}
     assert view.points("neither") == approx(np.array([[view.values["psi"], view.values["delta"]]]), abs=1e-6)
     # It is followed by itself.
@@ -86,7 +86,7 @@ def test_without_one_nothing_is_said_or_drawn_of_it(name):
 def test_where_none_is_found_the_chosen_orbit_is_shown_and_why():
     view = shown("suslov", "period 3")
     assert (
-        view.text["section"].split("\n")[1] == "No orbit of period 3 found near this point. The chosen orbit is shown."
+        view.verdict("section") == "No orbit of period 3 found near this point. The chosen orbit is shown."
     )
     assert view.report.notes == [
         "Newton's method finds no orbit of period 3 from here: start closer to one, where an orbit comes back close to "
@@ -95,15 +95,15 @@ def test_where_none_is_found_the_chosen_orbit_is_shown_and_why():
     assert drawn(view) == set()
     assert len(view.points("own")) == 20
     assert view.data["data-orbit"]["t"][-1] == approx(view.values["span"])
-    assert view.text["exponent"].split("\n")[1].startswith("λ = ")
+    assert view.verdict("exponent").startswith("λ = ")
 
 
 def test_before_it_is_known_the_caption_says_so_and_the_chosen_orbit_is_shown():
     values = {**LIGHT["suslov"], "periodic": "period 1", "h": 1.0123, "reach": 0.0}
     view = View(scenes()["suslov"], values, seen=["section", "exponent"], whole=False)
-    assert view.text["section"].split("\n")[1] == "Searching for a periodic orbit."
+    assert view.verdict("section") == "Searching for a periodic orbit."
     assert drawn(view) == set()
-    assert view.text["exponent"].split("\n")[1] == "Being computed."
+    assert view.verdict("exponent") == "Being computed."
     known = View(scenes()["suslov"], values, seen=["section", "exponent"])
     assert "Searching" not in known.text["section"]
     assert drawn(known)
@@ -111,7 +111,7 @@ def test_before_it_is_known_the_caption_says_so_and_the_chosen_orbit_is_shown():
 
 def test_while_a_slider_is_held_it_follows_and_its_manifolds_come_later():
     view = shown("ball-section", "period 1", is_preview=True)
-    assert view.text["section"].split("\n")[1].startswith("Period 1, saddle. Multipliers μ = 2.19, 0.4566, error ")
+    assert view.verdict("section").startswith("Period 1, saddle. Multipliers μ = 2.19, 0.4566, error ")
     assert drawn(view) == {"repels"}
     assert "Its manifolds are computed when the slider is released." in view.report.quantities
     let_go = shown("ball-section", "period 1")

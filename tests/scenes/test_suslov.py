@@ -11,15 +11,12 @@ from hess_explorer.protocol.specs import points_of
 from hess_explorer.scenes import scenes
 from hess_mechanics.dynamics.basins import contraction
 from support.deviations import deviations
-from support.view import View, values_of
+from support.view import FEW, View, values_of
 
 SCENE = scenes()["suslov"]
-NAMES = [preset.name for preset in SCENE.presets]
-SEA, REGULAR, STRANGE, TWO, REVERSAL, PRINCIPAL = NAMES
+TWO, PRINCIPAL = "Two attractors", "On a principal axis"
 CELLS = 256
 """Columns and rows of a draft of basins."""
-FEW = {"orbits": 4.0, "count": 20.0, "long": 20.0}
-"""For what does not depend on how much is shown."""
 
 
 @cache
@@ -32,7 +29,6 @@ def example(name):
 # ---- the examples ------------------------------------------------------------------------------------------------
 
 
-# Least and largest exponent, and divergence.
 def test_a_saddle_bounds_the_basins_and_its_manifold_runs_between_their_cells():
     view = example(TWO)
     (saddle,) = view.result.basins.saddles
@@ -171,9 +167,6 @@ def test_an_energy_that_does_not_reach_the_plane_is_raised_and_shown(plane, h):
     assert len(view.points("first")) > 1
 
 
-def test_elsewhere_the_conformal_time_is_not_drawn_and_that_is_said():
-    view = View(SCENE, FEW, seen={"conformal"})
-    assert "Needs I₁₃ = I₂₃ = 0" in view.text["conformal"]
-    assert "conformal-tau" not in view.data
+def test_the_conformal_time_of_a_long_motion_is_not_drawn_and_that_is_said():
     long = View(SCENE, {**values_of(SCENE, PRINCIPAL), **FEW, "span": 9e3}, seen={"conformal"})
     assert "choose a shorter time span" in long.text["conformal"]

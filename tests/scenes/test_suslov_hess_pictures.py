@@ -27,7 +27,7 @@ a = DEFAULTS["I23"] / DEFAULTS["I22"]
 def test_the_torus_in_space_says_what_it_is_and_its_curves_lie_on_it(says, values):
     values = {**DEFAULTS, **values, "shade": "invariant density"}
     view, h, f = View(SCENE, values), values["h"], values["f"]
-    assert view.text["surface"].split("\n")[1].startswith(says)
+    assert view.verdict("surface").startswith(says)
     elliptic = says.startswith("No limit cycle")
     assert ("No density." in view.text["surface"]) is not elliptic
     assert ("re" in view.data["surface"]) is elliptic

@@ -338,6 +338,10 @@ class Explorer:
         """Move sliders all at once, as one input event each."""
         return self.page.evaluate(SLIDE, list(values.items()))
 
+    def move(self, **values):
+        """Move sliders, and wait until the new state is painted."""
+        self.change(lambda: self.slide(**values))
+
     def choose(self, menu, option):
         """Choose an option of a menu, expanding its group if needed."""
         self.menu(menu).evaluate(UNFOLD)

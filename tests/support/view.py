@@ -15,6 +15,8 @@ from support.wire import read
 
 NUMBER = r"(−?\d+(?:\.\d+)?(?:e−?\d+)?)"
 """A number as captions write it."""
+FEW = {"orbits": 4.0, "count": 20.0, "long": 20.0}
+"""Values for what does not depend on how much of a section is shown."""
 STATE = ("omega1", "omega2", "g1", "g2", "g3")
 """The columns of an orbit of the Suslov problem."""
 
@@ -84,6 +86,10 @@ class View:
     def quantities(self, pattern):
         """Return the numbers in the derived quantities at the places of # in the pattern."""
         return numbers_in("\n".join(self.report.quantities), pattern)
+
+    def verdict(self, picture):
+        """Return what a caption says below its title."""
+        return self.text[picture].split("\n")[1]
 
     def curve(self, source):
         """Return xs and ys of the joined parts of a graph's series."""

@@ -64,7 +64,7 @@ def document(
     steps: Mapping[str, int] | None = None,
     home: str = HOME,
 ) -> bytes:
-    """Return the file of a page.
+    """Return the HTML file of a page.
 
     Parameters
     ----------
@@ -79,14 +79,14 @@ def document(
     lesson : str
         The description of the lesson as JSON; "" for none.
     steps : mapping, optional
-        The family of each step of the lesson, by "lesson/number/revealed".
+        The number of the family of each step, by "lesson/number/revealed": number from 0, revealed "true" or "false".
     home : str
         The address of the explorer, for the links.
 
     Returns
     -------
     bytes
-        The file.
+        The contents of the file.
     """
     index, strips = recording.pack()
     found = json.loads(lesson) if lesson else None

@@ -22,7 +22,7 @@ COUNT = 40
 
 
 def page_family(query: str, sliders: Sequence[str], *, grid: bool = False, lenient: bool = False) -> StateFamily:
-    """Return the states of a page before they are computed; the parameters and errors are those of `state_page`."""
+    """Return the states of a page before they are computed.  Parameters and `InvalidParameter` as in `state_page`."""
     return _slider_states(address(query, lenient=lenient), sliders, grid)
 
 
@@ -50,7 +50,7 @@ def state_page(
     pictures : sequence of str
         Names of the pictures; by default those that are open at first.
     sliders : sequence of str
-        The sliders that move in the file, as NAME=LOW:HIGH:COUNT.
+        The sliders that move in the file, as NAME=LOW:HIGH or NAME=LOW:HIGH:COUNT.
     grid : bool
         True for all combinations of their values; by default each has its own line through the state.
     home : str
@@ -68,7 +68,7 @@ def state_page(
     Raises
     ------
     InvalidParameter
-        If the scene has no such picture or slider, or the query is invalid.
+        If the scene has no such picture or slider, the query is invalid, or there are more than `MAX_STATES` states.
     ModelError
         If the state cannot be computed.
     """
@@ -94,7 +94,7 @@ def state_page(
 
 
 def _drag_values(scene: Scene[Any]) -> Values:
-    """Return values of parameters in all states of a slider except the first one.
+    """Return values that replace those of a step in all states of its sliders except the first one.
 
     Sections and diagrams shaded by density take seconds at full accuracy, so their sliders move at the accuracy of a
     drag.
@@ -108,7 +108,7 @@ def has_density_shading(scene: Scene[Any]) -> bool:
 
 
 def _families(lesson: Lesson, count: int) -> list[StateFamily]:
-    """Return the distinct states of the steps, with the sliders that the steps name or animate."""
+    """Return the family of each distinct state of the steps, with the sliders that the steps name or animate."""
     found: dict[str, tuple[Scene[Any], Values, dict[str, set[float]]]] = {}
     for step in lesson.steps:
         scene = scenes()[step.state.scene]
@@ -136,7 +136,7 @@ def _families(lesson: Lesson, count: int) -> list[StateFamily]:
 
 
 def _pictures(lesson: Lesson) -> dict[str, list[str]]:
-    """Return the pictures of each scene of a lesson: the open ones, and those that its steps name."""
+    """Return the pictures of each scene: the open ones, and those that steps enlarge, predict or hide a layer of."""
     found: dict[str, list[str]] = {}
     for step in lesson.steps:
         scene = scenes()[step.state.scene]
@@ -177,6 +177,8 @@ def lesson_page(
 
     Raises
     ------
+    InvalidParameter
+        If the sliders of a step have more than `MAX_STATES` states.
     ModelError
         If the state of a step cannot be computed.
     """

@@ -17,11 +17,11 @@ from hess_explorer.scenes.framework.scene import Scene
 from hess_mechanics.errors import InvalidParameter
 
 MAX_STATES = 4000
-"""Maximum number of states of a file."""
+"""Maximum number of states of a family."""
 
 _MOST_VALUES = 400
 _DIGITS = 4
-"""Significant digits of the values, relative to the range of a slider."""
+"""Digits of the values, counted from the leading digit of the range of a slider."""
 _SLIDER = re.compile(r"(?P<name>\w+)=(?P<low>[^:=]+):(?P<high>[^:=]+)(?::(?P<count>\d{1,4}))?")
 
 
@@ -40,7 +40,7 @@ class StateFamily:
     points : tuple of tuple of float
         Values of these parameters in each state, those of the first state first.
     drag_values : mapping of str
-        Values of parameters in all other states, such as the accuracy.
+        Values that replace those of `base` in all other states, such as the accuracy.
     """
 
     scene: Scene[Any]
@@ -56,7 +56,7 @@ class StateFamily:
 
 
 def values_across(low: float, high: float, count: int, own: float) -> tuple[float, ...]:
-    """Return about `count` rounded values from low to high, and the value `own`."""
+    """Return about `count` rounded values from low to high (low < high) and the value `own`, in ascending order."""
     decimals = _DIGITS - 1 - math.floor(math.log10(high - low))
     return tuple(sorted({own, *(float(one) for one in np.round(np.linspace(low, high, count), decimals))}))
 
@@ -69,7 +69,7 @@ def read_slider(text: str, scene: Scene[Any], base: Values, count: int) -> tuple
     text : str
         NAME=LOW:HIGH or NAME=LOW:HIGH:COUNT.
     scene : Scene
-        The scene, which has a number of that name.
+        The scene.
     base : mapping
         The values of the first state.
     count : int
@@ -83,7 +83,7 @@ def read_slider(text: str, scene: Scene[Any], base: Values, count: int) -> tuple
     Raises
     ------
     InvalidParameter
-        If the text is invalid.
+        If the text is invalid, the scene has no such number, or the ends or the count are out of range.
     """
     known = {spec.name: spec for spec in scene.specs if isinstance(spec, NumberSpec)}
     found = _SLIDER.fullmatch(text)
@@ -108,7 +108,7 @@ def read_slider(text: str, scene: Scene[Any], base: Values, count: int) -> tuple
 
 
 def slider_of(scene: Scene[Any], name: str, values: Values, count: int) -> tuple[float, ...]:
-    """Return the values of the whole slider of a parameter in a state; empty if it is not a number."""
+    """Return `count` values across the slider of a parameter, and its value in the state; empty if not a number."""
     spec = next(spec for spec in scene.specs if spec.name == name)
     if not isinstance(spec, NumberSpec):
         return ()
@@ -136,8 +136,8 @@ def family(
         The name and the values of each slider.
     grid : bool
         True for all combinations of their values; by default each slider has its own line through the state.
-    drag_values : mapping, optional
-        Values of parameters in all states but the first.
+    drag_values : mapping of str, optional
+        Values that replace those of `base` in all states but the first.
 
     Returns
     -------

@@ -24,16 +24,16 @@ from hess_explorer.views.plot import Plot
 from hess_mechanics.errors import ModelError
 
 Report = Callable[[int, int], None]
-"""Receives the number of computed states and that of all states."""
+"""Receives the number of computed states and the total number."""
 
 _LARGEST_STRIP = 600_000
-"""Numbers of a strip, after which the next one begins: the browser decodes a strip within a few frames."""
+"""Size of a strip in numbers, above which the next one begins: the browser decodes a strip within a few frames."""
 _CLICKS = ("tap", "pan")
 """Mouse events of a plot that choose a computed state."""
 
 
 def _constants(one: StateFamily) -> str:
-    """Return the constant numbers of a file as text."""
+    """Return the numbers that are constant in a family, as text."""
     idle = one.scene.idle_values(one.base)
     specs = [spec for spec in one.scene.specs if isinstance(spec, NumberSpec) and spec.name not in {*one.names, *idle}]
     return ", ".join(f"{spec.symbol} = {one.base[spec.name]:g}".replace("-", "−") for spec in specs)
@@ -48,7 +48,7 @@ class Recording:
     pictures : mapping
         The names of the pictures of each scene.
     report : callable, optional
-        Called with the number of computed states and the total number.
+        Called after each state with the number of computed states and the total number.
     """
 
     pictures: Mapping[str, Sequence[str]]
@@ -60,7 +60,10 @@ class Recording:
     _columns: dict[str, dict[str, list[str]]] = field(default_factory=dict)
 
     def record(self, families: Sequence[StateFamily]) -> None:
-        """Compute the distinct states of families.  Raises `ModelError` if a first state is impossible."""
+        """Compute the distinct states of families, except those recorded before.
+
+        Raises `ModelError` if the first state of a family is impossible; other impossible states show the reason.
+        """
         queries = [{encode(one.scene.name, one.values(point)): point for point in one.points} for one in families]
         total = len({query for found in queries for query in found} - self._states.keys())
         done = 0
@@ -150,7 +153,10 @@ class Recording:
             noted[source] = [*dict.fromkeys([*noted.get(source, []), *new])]
 
     def _picks(self, name: str) -> dict[str, list[str]]:
-        """Return the plots whose axes are varied parameters; a click there selects a computed state."""
+        """Return the columns of the handle of each plot in which a click selects a computed state.
+
+        At least one of these columns is a varied parameter.
+        """
         varied = self._sliders.get(name, {})
         handles = {
             view.name: view.handle.columns[:2]
@@ -177,7 +183,7 @@ class Recording:
         return {**found, "presets": [], "tries": [], "essential": [*varied], "drawn": False, "handle": None}
 
     def pack(self) -> tuple[dict[str, Any], list[str]]:
-        """Return the index of the states and the strips in base 64."""
+        """Return the index of the states, as data for JSON, and the strips in base 64."""
         picks = {name: self._picks(name) for name in self.pictures}
         index = {"families": self._families, "picks": picks, "sources": self._columns}
         return index, [base64.b64encode(strip.pack()).decode() for strip in self._strips]

@@ -22,7 +22,7 @@ _INDEX = "index.html"
 _CLOUD = 500.0
 """Number of points of a cloud in the page of a scene."""
 _WINDOW = ("first", "last")
-"""The ends of an orbit diagram: they choose what is computed."""
+"""Parameters without a slider: the ends of an orbit diagram, which set the range that is computed."""
 
 _LINKS = """<!DOCTYPE html>
 <html lang="en">
@@ -37,7 +37,7 @@ body {{ max-width: 50em; margin: auto; padding: 1em; font: 1em system-ui }}
 </style>
 <h1>Hess Explorer</h1>
 <p>The Suslov problem, its Hess case and their relatives, as pages that need no server. Their sliders move through
-computed states; in the explorer everything moves.</p>
+computed states; in the explorer every parameter can change.</p>
 {parts}
 </html>
 """
@@ -128,7 +128,7 @@ def build(
 
 
 def _scene_page(scene: Scene[Any], count: int, home: str) -> bytes:
-    """Return the page of a scene: its first state with its two most important sliders.
+    """Return the page of a scene: its default state with the sliders of its first two essential numbers.
 
     All states have the accuracy of a drag, which is right to half a pixel.  Scenes with clouds or densities have a
     quarter of the values, and clouds `_CLOUD` points.
@@ -146,7 +146,7 @@ def _scene_page(scene: Scene[Any], count: int, home: str) -> bytes:
 
 
 def _parts(files: Mapping[str, str]) -> Iterator[str]:
-    """Yield the lists of links: the lessons, then the scenes by group."""
+    """Yield a list of links as HTML for the lessons and for each group of scenes."""
     groups: dict[str, list[str]] = {}
     for name, path in files.items():
         if name in package_lessons():

@@ -27,11 +27,11 @@ EXACT = 0.0
 """Step of an array that is stored bit by bit in single precision."""
 
 _SPAN = 2**17
-"""Steps across the extent of an array that is no coordinate of a plot, such as a direction on a sphere."""
+"""Steps across the extent of an array that is not a coordinate of a plot, such as a direction on a sphere."""
 _SHADES = 2**11
 """Steps across the extent of an image, which has 256 colours."""
 _SMALL = 8
-"""Arrays of so few numbers are stored with 22 bits."""
+"""Arrays with at most this many numbers are stored to 2⁻²² of their largest magnitude."""
 _LARGEST = 2.0**31
 
 
@@ -46,7 +46,7 @@ def steps_of_plots(plots: Sequence[tuple[Plot[Any], Axes]]) -> dict[str, dict[st
     Returns
     -------
     dict
-        Steps in the units of the column; `EXACT` for a logarithmic axis.
+        Steps in the units of the column, by source and column; `EXACT` for a logarithmic axis.
     """
     found: dict[str, dict[str, float]] = {}
     for plot, axes in plots:
@@ -80,7 +80,10 @@ def _step(values: Array, column: str, step: float | None) -> float:
 
 
 def _quantise(values: Array, step: float) -> tuple[int, np.ndarray]:
-    """Quantise an array: return the least multiple of the step, and the whole numbers (n,)."""
+    """Quantise an array: return the least multiple of the step, and the whole numbers (n,).
+
+    For the step `EXACT`, return 0 and the bits of the single-precision numbers.
+    """
     if step == EXACT:
         return 0, values.view(np.uint32)
     finite = np.isfinite(values)
@@ -92,7 +95,15 @@ def _quantise(values: Array, step: float) -> tuple[int, np.ndarray]:
 
 
 class OfflineStrip:
-    """A sequence of states under construction: trees of pictures, texts and controls with their arrays."""
+    """A sequence of states under construction: trees of pictures, texts and controls with their arrays.
+
+    Attributes
+    ----------
+    trees : list of dict
+        The tree of each state, see `Wire.pack`; arrays are replaced by their positions in the strip.
+    size : int
+        Number of stored numbers.
+    """
 
     def __init__(self) -> None:
         self.trees: list[Any] = []

@@ -21,35 +21,6 @@ from support.mechanics import ROOT, SYSTEMS, every_system, some_systems
 from support.refusals import refused
 
 
-def without_jit(code, *arguments):
-    """Return the JSON that Python code prints in a process where Numba compiles nothing."""
-    run = subprocess.run(
-        [sys.executable, "-W", "error", "-c", code, *arguments],
-        env={**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": str(ROOT / "models")},
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
-    assert run.returncode == 0, run.stderr
-    return json.loads(run.stdout)
-
-
-def assert_same_without_jit(code, within=1e-11):
-    """Assert that code, which prints JSON, gives the same numbers to round-off compiled, here, and without the JIT."""
-    captured = []
-    # Only the check that the JIT is off must go.
-    statements = re.sub(r" *assert not hasattr.*\n", "", code)
-    statements = statements.replace("json.dump(results, sys.stdout)", "captured.append(results)")
-    exec(statements, {"captured": captured})
-    (compiled,) = captured
-    plain = without_jit(code)
-    assert plain.keys() == compiled.keys()
-    for key, values in compiled.items():
-        assert plain[key] == approx(values, rel=within, abs=within), key
-
-
-
 def test_the_registry_finds_every_module_that_defines_a_system():
     files = (ROOT / "models/hess_mechanics").rglob("*.py")
     assert len(SYSTEMS) == sum(bool(re.search(r"^SYSTEM = System\(", path.read_text(), re.M)) for path in files)
@@ -103,7 +74,24 @@ json.dump(results, sys.stdout)
 
 
 def test_kernels_without_the_jit_equal_the_compiled_ones_to_round_off():
-    assert_same_without_jit(WITHOUT_JIT)
+    captured = []
+    # Only the check that the JIT is off must go.
+    here = re.sub(r" *assert not hasattr.*\n", "", WITHOUT_JIT).replace("json.dump(results, sys.stdout)", "keep(results)")
+    exec(here, {"keep": captured.append})
+    (compiled,) = captured
+    run = subprocess.run(
+        [sys.executable, "-W", "error", "-c", WITHOUT_JIT],
+        env={**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": str(ROOT / "models")},
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+    assert run.returncode == 0, run.stderr
+    plain = json.loads(run.stdout)
+    assert plain.keys() == compiled.keys()
+    for key, values in compiled.items():
+        assert plain[key] == approx(values, rel=1e-11, abs=1e-11), key
 
 
 @every_system

@@ -3,7 +3,7 @@
 import math
 
 import numpy as np
-from pytest import approx, mark, raises
+from pytest import approx, raises
 
 import oracle
 from hess_mechanics import level, systems

@@ -17,7 +17,6 @@ from hess_mechanics.suslov.kharlamova import PlaneBody
 from support.extremes import assert_promised, off
 from support.loxodrome import closed_form
 
-
 SUSLOV, UP = systems()["suslov"], (0.6, 0.0, 0.8)
 GESS1 = Bridge.of_heavy(HeavyBody.hess((1.0, 0.625, 0.375), 9.975))
 
