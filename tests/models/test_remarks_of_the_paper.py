@@ -53,9 +53,7 @@ def test_without_a_field_the_solution_of_the_paper_is_one_and_w1_a_repels_it():
     on_it = dict(zip(STATE, solution, strict=True))
     rates = [rate.subs(B, 0).subs(on_it, simultaneous=True) for rate in V]
     assert [sp.simplify(sp.diff(place, t) - rate) for place, rate in zip(solution, rates, strict=True)] == [0] * 5
-    E, F1, F2 = (
-        sp.simplify(one.subs(B, 0).subs(on_it, simultaneous=True)) for one in INTEGRALS.values()
-    )
+    E, F1, F2 = (sp.simplify(one.subs(B, 0).subs(on_it, simultaneous=True)) for one in INTEGRALS.values())
     assert [sp.simplify(E - W1**2 / 2), F1, sp.simplify(F2 - W1 * sp.cos(theta))] == [0, 1, 0]
     # Neighbouring motions have w2 ~ e^{a w1 t}.
     assert sp.diff(V[1].subs(B, 0), W2) == A * W1

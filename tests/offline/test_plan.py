@@ -48,6 +48,7 @@ def test_lines_go_through_the_state_and_a_grid_has_all_combinations():
     steps = np.abs(np.diff(np.array(grid.points[1:]), axis=0)).max(axis=1)
     assert steps.max() <= 0.5
     assert grid.values((2.0, 0.4)) == {**BASE, "h": 2.0, "f": 0.4}
+    assert len(family(SCENE, BASE, [], grid=True).points) == 1
     drag_values = family(SCENE, BASE, [h], drag_values={"accuracy": "draft"})
     assert drag_values.values(drag_values.points[0])["accuracy"] == "standard"
     assert drag_values.values((2.0,))["accuracy"] == "draft"

@@ -1,4 +1,4 @@
-"""The scene "loxodromic pendulum": the track in space, and the status line."""
+"""The scene "loxodromic pendulum": the track in space."""
 
 from math import pi
 
@@ -40,6 +40,3 @@ def test_the_computed_track_lies_on_the_loxodrome_and_both_are_seen_from_below_u
     assert centre[0] == approx([0.0, 0.0, -1.0], abs=1e-6)
     assert np.max(np.abs(centre[:, 0])) < 1e-4
     assert centre[:, 2] == approx(view.data["data-orbit"]["height"], abs=1e-6)
-
-
-# --- The body of the Suslov–Hess case ----------------------------------------------------------------

@@ -85,9 +85,7 @@ def test_without_one_nothing_is_said_or_drawn_of_it(name):
 
 def test_where_none_is_found_the_chosen_orbit_is_shown_and_why():
     view = shown("suslov", "period 3")
-    assert (
-        view.verdict("section") == "No orbit of period 3 found near this point. The chosen orbit is shown."
-    )
+    assert view.verdict("section") == "No orbit of period 3 found near this point. The chosen orbit is shown."
     assert view.report.notes == [
         "Newton's method finds no orbit of period 3 from here: start closer to one, where an orbit comes back close to "
         "itself, or choose another period."

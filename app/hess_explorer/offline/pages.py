@@ -136,11 +136,12 @@ def _families(lesson: Lesson, count: int) -> list[StateFamily]:
 
 
 def _pictures(lesson: Lesson) -> dict[str, list[str]]:
-    """Return the pictures of each scene: the open ones, and those that steps enlarge, predict or hide a layer of."""
+    """Return the pictures of each scene: the open ones, and those that steps show, enlarge, predict or hide a part of."""
     found: dict[str, list[str]] = {}
     for step in lesson.steps:
         scene = scenes()[step.state.scene]
         named = {
+            *step.pictures,
             step.enlarged_picture,
             step.hidden_layer.picture if step.hidden_layer else "",
             step.prediction.picture if step.prediction else "",

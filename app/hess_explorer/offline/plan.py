@@ -157,7 +157,7 @@ def family(
     count = math.prod(lengths) if grid else sum(lengths)
     if count > MAX_STATES:
         raise InvalidParameter(f"These are {count} states; a file holds at most {MAX_STATES}: choose fewer values.")
-    if grid:
+    if grid and sides:
         # Run through each row in alternating directions, so that consecutive states are neighbours.
         points = _snake(sides)
     else:
