@@ -382,26 +382,28 @@ def assert_drawn(scene, values, seen, is_preview):
         assert 0.0 < orbit["t"][-1] <= (closed.time if closed else admitted.get("span", inf)) * (1.0 + 1e-6)
 
 
+def assert_some_drawn(scene, data, is_preview):
+    values = {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in scene.specs}
+    assert_drawn(scene, values, data.draw(visible_trials(scene), label="in sight"), is_preview)
+
+
 @given(data=st.data(), is_preview=st.booleans())
 def test_every_admissible_state_is_computed_and_drawn_without_a_number_that_is_none(data, is_preview):
-    values = {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in HESS.specs}
-    assert_drawn(HESS, values, data.draw(visible_trials(HESS), label="in sight"), is_preview)
+    assert_some_drawn(HESS, data, is_preview)
 
 
 @pytest.mark.parametrize("scene", [scene for scene in OWN if scene is not HESS], ids=lambda scene: scene.name)
 @settings(max_examples=examples(1))
 @given(data=st.data(), is_preview=st.booleans())
 def test_an_admissible_state_of_the_other_scenes_is_drawn_whole_or_refused_with_a_sentence(scene, data, is_preview):
-    values = {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in scene.specs}
-    assert_drawn(scene, values, data.draw(visible_trials(scene), label="in sight"), is_preview)
+    assert_some_drawn(scene, data, is_preview)
 
 
 @settings(max_examples=examples(3))
 @given(data=st.data())
 def test_the_errors_of_every_admissible_state_are_computed_and_drawn_too(data):
-    values = {spec.name: data.draw(somewhere(spec), label=spec.name) for spec in ACCURACY.specs}
     # Under a drag: without SciPy's methods, which take long.
-    assert_drawn(ACCURACY, values, data.draw(visible_trials(ACCURACY), label="in sight"), True)
+    assert_some_drawn(ACCURACY, data, True)
 
 
 EXTREME = [
@@ -446,7 +448,7 @@ REFUSED = [
         "no motion with this h and f .* choose a larger h, a smaller .f., or More → Remove clicks",
     ),
     ("euler-poisson", {"f": 500.0}, "In this window no motion"),
-    ("loxodrome", {"I2": 1.0, "I3": 1.0}, "which differ"),
+    ("loxodrome", {"I2": 1.0, "I3": 1.0}, "which must differ"),
     ("loxodrome", {"m": -0.5}, "choose μ > 0"),
     ("hess-leak", {"I2": 2.0}, "I2 = 2 must lie between"),
     ("bridge", {"m": 4e-299}, "Choose μ.r. of at least"),

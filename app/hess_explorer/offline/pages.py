@@ -136,7 +136,7 @@ def _families(lesson: Lesson, count: int) -> list[StateFamily]:
 
 
 def _pictures(lesson: Lesson) -> dict[str, list[str]]:
-    """Return the pictures of each scene: the open ones, and those that steps show, enlarge, predict or hide a part of."""
+    """Return the pictures of each scene: the open ones, and those that a step shows, enlarges or predicts in."""
     found: dict[str, list[str]] = {}
     for step in lesson.steps:
         scene = scenes()[step.state.scene]

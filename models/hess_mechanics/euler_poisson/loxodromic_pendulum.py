@@ -87,8 +87,8 @@ class LoxodromicPendulum:
         require_finite(h=self.h, l=self.l)
         if not self.body.is_hess or not self.body.mu > 0.0:
             raise InvalidParameter(
-                "A loxodromic pendulum needs μ > 0 and the Hess condition: choose a body such as "
-                "HeavyBody.hess((1.0, 1.5, 2.0), 1.0)."
+                "A loxodromic pendulum needs μ > 0 and the Hess condition: choose μ > 0 and a body from "
+                "`HeavyBody.hess`."
             )
         if not self.h > -1.0:
             raise OutsideRegion(f"h = {self.h:.12g} is not above the lowest energy: choose h > −1.")

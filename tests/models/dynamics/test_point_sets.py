@@ -52,7 +52,7 @@ def test_places_of_periodic_orbits_have_no_grain_but_what_is_resolved():
     # An orbit that leaves one place for another has not settled.
     left = np.repeat([[0.0, 0.0], [1.0, 0.0]], 8, axis=0)
     assert not set_distance(PLANE, left, left).has_settled
-    with raises(InvalidParameter, match="for at least 8"):
+    with raises(InvalidParameter, match="need at least 8"):
         set_distance(PLANE, a[:7], b)
 
 
