@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,24 +11,15 @@ import hess_mechanics
 from hess_explorer.__main__ import main
 from hess_explorer.compute.cells import Outcome, evaluate
 from hess_explorer.sweep import sweep
-from hess_mechanics import LEVELS, System, level
+from hess_mechanics import LEVELS, level
 from hess_mechanics.catalogue import NoValue, catalogue, computations_of, find
 from hess_mechanics.errors import InvalidParameter
+from support.henon_heiles import SYSTEM
 
-# The Hénon–Heiles system: a system of one's own, with a section.
-SWING = System(
-    "swing",
-    lambda y, p: (y[2], y[3], -y[0] - 2.0 * p[0] * y[0] * y[1], -y[1] - p[0] * (y[0] * y[0] - y[1] * y[1])),
-    "x y u v",
-    {"e": 1.0},
-    example=(0.0, 0.1, 0.35, 0.05),
-    integrals=lambda y, p: {
-        "E": (y[2] ** 2 + y[3] ** 2 + y[0] ** 2 + y[1] ** 2) / 2 + p[0] * (y[0] ** 2 * y[1] - y[1] ** 3 / 3)
-    },
-)
+SWING = replace(SYSTEM, example=(0.0, 0.1, 0.35, 0.05))
 OWN = dict(computations_of(SWING))
 # The periodic orbit near its example is elliptic.
-del OWN["manifold swing-section"]
+del OWN["manifold henon-heiles-section"]
 EVERY = {**catalogue(), **OWN}
 # Takes a minute; the other sections have the same computation.
 del EVERY["dynamics plane-potential-section"]

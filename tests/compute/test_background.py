@@ -91,14 +91,14 @@ def fail(n):
     raise ZeroDivisionError(n)
 
 
-def tasks(count, first=0, function=square):
-    return [Task(function, first + n) for n in range(count)]
+def tasks(count, first=0):
+    return [Task(square, first + n) for n in range(count)]
 
 
 # ---- The background ---------------------------------------------------------------------------------------------
 
 
-def ended(work):
+def run_out(work):
     wait_until(lambda: work.backlog == 0)
 
 
@@ -120,7 +120,7 @@ def test_pieces_are_begun_in_their_order_on_all_threads_and_added_ones_follow(ga
     wait_until(lambda: len(gate.calls) == THREADS + 1)
     assert numbers(gate) == [*range(THREADS + 1)]
     gate.let(5)
-    ended(work)
+    run_out(work)
     # Also when nothing is under way any more.
     work.add(tasks(1, first=9))
     gate.let()
@@ -146,7 +146,7 @@ def test_a_newer_choice_ends_the_older_work(gate):
     work.follow(tasks(3, first=100))
     # No other old work is started.
     gate.let(THREADS + 3)
-    ended(work)
+    run_out(work)
     time.sleep(0.02)
     assert numbers(gate) == [*range(THREADS), 100, 101, 102]
 
@@ -180,7 +180,7 @@ def test_a_piece_that_has_begun_ends_when_nobody_wants_it_any_more(endless):
         assert not ended.is_set()
     work.follow(tasks(1, first=60))
     assert ended.wait(60.0)
-    ended(work)
+    run_out(work)
     assert work.error == ""
 
 
@@ -190,7 +190,7 @@ def test_a_piece_that_takes_too_long_ends_with_a_sentence(endless, monkeypatch):
     work = Background()
     work.follow([piece])
     assert ended.wait(60.0)
-    ended(work)
+    run_out(work)
     assert work.error.startswith("A part of this state takes more than 0.02 s to compute")
     assert "choose a shorter time span" in work.error
 
@@ -202,13 +202,13 @@ def test_what_is_refused_or_fails_ends_the_work_with_a_sentence(free_gate, caplo
         (fail, "A part of this state could not be computed. Please report the link."),
     ):
         work.follow([*tasks(2), Task(function, 7), *tasks(20_000, first=10)])
-        ended(work)
+        run_out(work)
         assert work.error == sentence
         # The other thread has not done much meanwhile.
         assert len(free_gate.calls) < 10_000
         # The threads live on.
         work.follow(tasks(4, first=900))
-        ended(work)
+        run_out(work)
         assert work.error == ""
     assert "ZeroDivisionError" in caplog.text
 
@@ -219,7 +219,7 @@ def test_sessions_take_turns(gate):
     wait_until(lambda: len(gate.calls) == THREADS)
     short.follow(tasks(2, first=1000))
     gate.let(12)
-    ended(short)
+    run_out(short)
     assert long.backlog > 20
 
 
@@ -247,7 +247,7 @@ def drawn_points(browser):
 
 def completed(browser, requested=1):
     """Return the state after all missing results have been computed."""
-    ended(browser.session.background)
+    run_out(browser.session.background)
     browser.ask(requested)
     return browser.ask(requested)
 
@@ -309,7 +309,7 @@ def test_stop_leaves_what_is_drawn_says_how_much_and_begins_nothing_again(gate):
     # Stop cancels the work of the new value, which is on its way.
     browser.ask(3, values={"h": 45.0})
     browser.ask(4, values={"h": 46.0}, stop=True)
-    ended(browser.session.background)
+    run_out(browser.session.background)
     assert 46.0 not in {arguments[1] for _, arguments in gate.calls if len(arguments) > 3}
     assert browser.texts["notes"].startswith("Stopped: ")
     # Another state is computed as ever, and the note goes.
@@ -352,7 +352,7 @@ def test_the_last_piece_may_come_while_its_picture_is_drawn(gate):
     def slowly(result, hold_axes):
         drawn.append(result)
         gate.let(1000)
-        ended(browser.session.background)
+        run_out(browser.session.background)
         return show(result, hold_axes)
 
     browser.session.stage.show = slowly

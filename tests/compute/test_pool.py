@@ -2,9 +2,9 @@
 
 import subprocess
 import sys
-import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
+from threading import Event, current_thread
 
 import numba
 import pytest
@@ -38,7 +38,7 @@ def own(monkeypatch):
 
 def occupied(own, task=False):
     """Occupy a thread of the pool; return the event that frees it again."""
-    begun, end = threading.Event(), threading.Event()
+    begun, end = Event(), Event()
 
     def work():
         begun.set()
@@ -50,12 +50,12 @@ def occupied(own, task=False):
 
 
 def test_requests_of_a_session_run_in_order_one_at_a_time_and_of_too_many_the_newest():
-    session, go, ended, done = RequestQueue(), threading.Event(), threading.Event(), []
-    started = threading.Event()
+    session, go, ended, done = RequestQueue(), Event(), Event(), []
+    started = Event()
     session.put(lambda: (started.set(), waited(go)))
     waited(started)
     for n in range(MAX_REQUESTS + 5):
-        session.put(lambda n=n: done.append((n, threading.current_thread().name[:7])))
+        session.put(lambda n=n: done.append((n, current_thread().name[:7])))
     session.put(ended.set)
     go.set()
     waited(ended)
@@ -66,7 +66,7 @@ def test_the_session_that_was_served_least_recently_is_next_and_an_error_ends_no
     def fail():
         raise ZeroDivisionError("secret")
 
-    done, ended = [], threading.Event()
+    done, ended = [], Event()
     sessions = [RequestQueue() for _ in range(3)]
     ends = [occupied(own) for _ in range(2)]
     for i, session in enumerate(sessions):
@@ -83,7 +83,7 @@ def test_the_session_that_was_served_least_recently_is_next_and_an_error_ends_no
 
 def test_tasks_wait_while_requests_occupy_the_cores_and_never_hold_up_a_request(own, monkeypatch):
     monkeypatch.setattr(pool, "PATIENCE", PATIENCE)
-    begun, request = threading.Event(), occupied(own)
+    begun, request = Event(), occupied(own)
     own.add_task(begun.set)
     assert not begun.wait(0.05)
     request.set()
@@ -96,7 +96,7 @@ def test_tasks_wait_while_requests_occupy_the_cores_and_never_hold_up_a_request(
 def test_under_any_load_tasks_go_on_but_no_more_at_a_time_than_cores(own, monkeypatch):
     monkeypatch.setattr(pool, "PATIENCE", 0.01)
     requests = [occupied(own) for _ in range(2)]
-    task, second = occupied(own, task=True), threading.Event()
+    task, second = occupied(own, task=True), Event()
     own.add_task(second.set)
     assert not second.wait(0.1)
     task.set()
@@ -124,7 +124,7 @@ for _ in range(9):
 
 
 def test_what_nobody_waits_for_is_not_begun_and_what_runs_ends_at_its_next_computation():
-    session, go, started, found, ended = RequestQueue(), threading.Event(), threading.Event(), [], threading.Event()
+    session, go, started, found, ended = RequestQueue(), Event(), Event(), [], Event()
     cache = ResultCache(2**20)
 
     def work():
@@ -143,14 +143,14 @@ def test_what_nobody_waits_for_is_not_begun_and_what_runs_ends_at_its_next_compu
     go.set()
     waited(ended)
     session.put(lambda: found.append("later"))
-    other = threading.Event()
+    other = Event()
     RequestQueue().put(other.set)
     waited(other)
     assert found == [(4, False)]
 
 
 def test_what_costs_more_than_its_budget_is_refused_with_a_sentence():
-    nobody = threading.Event()
+    nobody = Event()
     check()
     with time_budget(nobody, seconds=0.02), pytest.raises(OverBudget, match=r"more than 0\.02 s to compute"):
         busy(0.05)
@@ -177,7 +177,7 @@ def test_what_other_threads_work_for_an_answer_counts_and_ends_between_two_parts
         busy(0.02)
         done.append(i)
 
-    with time_budget(threading.Event(), seconds=0.05), pytest.raises(OverBudget):
+    with time_budget(Event(), seconds=0.05), pytest.raises(OverBudget):
         run_in_threads(part, 40, threads=2)
     # Those of two threads that had begun, and no others.
     assert 2 <= len(done) <= 6
@@ -185,7 +185,7 @@ def test_what_other_threads_work_for_an_answer_counts_and_ends_between_two_parts
 
 
 def test_a_long_computation_ends_between_its_parts_when_nobody_waits():
-    left, run = threading.Event(), []
+    left, run = Event(), []
 
     def one(plan):
         run.append(plan)
@@ -199,7 +199,7 @@ def test_a_long_computation_ends_between_its_parts_when_nobody_waits():
 
 def test_what_is_compiled_meanwhile_is_no_part_of_the_budget():
     compiled = numba.njit(lambda x: x + 1.0)
-    with time_budget(threading.Event(), seconds=0.02):
+    with time_budget(Event(), seconds=0.02):
         begun = time.thread_time()
         assert compiled(1.0) == 2.0
         assert time.thread_time() - begun > 0.02
@@ -207,7 +207,7 @@ def test_what_is_compiled_meanwhile_is_no_part_of_the_budget():
 
 
 def test_the_end_of_one_budget_is_not_that_of_others_who_wait_for_the_same():
-    cache, started, go, gone, calls = ResultCache(2**20), threading.Event(), threading.Event(), threading.Event(), []
+    cache, started, go, gone, calls = ResultCache(2**20), Event(), Event(), Event(), []
 
     def dear(n):
         calls.append(n)

@@ -17,6 +17,7 @@ from hess_explorer.protocol.specs import encode
 from hess_explorer.scenes import scenes
 from support.exported import read
 from support.thorough import sample
+from support.view import values_of
 
 PICTURES = [
     (name, picture)
@@ -34,7 +35,7 @@ ELSEWHERE = {("suslov", "conformal"): "On a principal axis"}
 @pytest.mark.parametrize("scene, picture", sample(PICTURES, 8))
 def test_every_picture_has_tables_and_a_figure(scene, picture):
     wanted = ELSEWHERE.get((scene, picture))
-    example = next((one.values for one in scenes()[scene].presets if wanted and one.name.startswith(wanted)), {})
+    example = values_of(scenes()[scene], wanted) if wanted else {}
     values = {**scenes()[scene].defaults(), **example, "accuracy": "draft"}
     found = picture_data(encode(scene, values), picture)
     assert_numbers(found, values)

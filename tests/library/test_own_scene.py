@@ -1,28 +1,23 @@
 """A scene for a system of one's own: Hénon–Heiles, for λ = 0 two oscillators, whose motion is known."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 from pytest import approx, mark, raises
-from scipy.integrate import solve_ivp
 
 import hess_explorer as hess
 from hess_explorer.__main__ import main
 from hess_explorer.scenes import add
 from hess_mechanics import System
 from hess_mechanics.errors import InvalidParameter
+from support.henon_heiles import SYSTEM
+from support.mechanics import scipy_crossings
 from support.refusals import refused
 from support.view import View
 
 # One system, so that its equations are compiled once.
-HENON = System(
-    "henon-heiles",
-    lambda y, p: (y[2], y[3], -y[0] - 2 * p[0] * y[0] * y[1], -y[1] - p[0] * (y[0] ** 2 - y[1] ** 2)),
-    "x y px py",
-    {"lam": 1.0},
-    example=(0.0, 0.1, 0.3, 0.2),
-    integrals=lambda y, p: {"E": sum(x**2 for x in y) / 2 + p[0] * (y[0] ** 2 * y[1] - y[1] ** 3 / 3)},
-)
+HENON = replace(SYSTEM, example=(0.0, 0.1, 0.3, 0.2))
 SCENE = hess.scene(
     HENON, ["x px", "t x", "x y px", "exponent"], sliders={"lam": (0.0, 2.0)}, presets={"Two oscillators": {"lam": 0}}
 )
@@ -65,10 +60,7 @@ def test_a_section_at_a_level_has_periodic_orbits_and_their_branch():
     assert scene.defaults()["place"] == "0.1,0.2"
     # A motion that does not begin on the section has the place of its first crossing, here found by SciPy.
     other = hess.scene(HENON, ["section x px at y = 0 on E"]).defaults()["place"]
-    found = solve_ivp(
-        lambda t, y: HENON.field(y, [1.0]), (0, 20), HENON.example[0], events=lambda t, y: y[1], rtol=1e-9, atol=1e-11
-    )
-    first = next(y for y in found.y_events[0] if y[3] > 0.0)
+    first = scipy_crossings(lambda y: HENON.field(y, [1.0]), HENON.example[0], lambda y: y[1], 20.0, 1)[1][0]
     assert [*map(float, other.split(","))] == approx(first[[0, 2]], abs=1e-6)
     chosen = {"i_E": 0.08, "place": "0,0.21", "over": "E", "upwards": "py"}
     state = hess.state(scene, **chosen, periodic="period 1", low=0.075, high=0.085)

@@ -21,6 +21,7 @@ from hess_explorer.headless.film import frames
 from hess_explorer.headless.screenshot import screenshot, server_process
 from hess_explorer.scenes import scenes
 from support.modules import look_inside
+from support.view import values_of
 
 README = Path(__file__).resolve().parents[2] / ".github" / "pictures"
 FRONT = {
@@ -69,7 +70,7 @@ def inside(page, name):
 def taken(page, base, name, theme):
     """Return the front picture of a scene, once all of it has been computed, as a square."""
     example, picture = FRONT[name]
-    (values,) = (one.values for one in scenes()[name].presets if one.name.startswith(example))
+    values = values_of(scenes()[name], example)
     parts = {"embed": "1", "pictures": picture, "controls": "none", "theme": theme}
     page.goto(f"{base}/?{urlencode({'scene': name, **values, **parts})}")
     wait_ready(page)

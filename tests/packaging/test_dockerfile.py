@@ -5,11 +5,10 @@ import subprocess
 import sys
 import tomllib
 import zipfile
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
+from support.mechanics import ROOT
 
 
 def test_the_readme_builds_and_runs_it_at_the_port_and_address_that_it_serves():

@@ -4,19 +4,10 @@ import re
 
 import pytest
 
-from hess_explorer.scenes import scenes
 from hess_mechanics import check_body
-from support.mechanics import ROOT
+from support.readme import SCENES, named, table
 
-TABLE = (
-    (ROOT / "app/README.md")
-    .read_text(encoding="utf-8")
-    .partition("## The paper, part by part\n")[2]
-    .partition("\n## ")[0]
-)
-LINES = re.findall(r"^\|.*\|$", TABLE, re.MULTILINE)[2:]
-ROWS = [[cell.strip() for cell in line.strip("|").split("|")] for line in LINES]
-SCENES = {name: scene for name, scene in scenes().items() if scene.origin is None}
+ROWS = table("The paper, part by part")
 
 
 def test_every_proposition_remark_theorem_and_open_question_is_in_the_table_once():
@@ -38,8 +29,8 @@ def test_what_a_row_names_is_on_the_page(row):
     mentioned = [SCENES[name] for name, *_ in places]
     assert all(picture in SCENES[name].pictures for name, *pictures in places for picture in pictures)
     for title in re.findall(r"\*([^*]+)\*", where):
-        examples = [one.name for scene in {one.name: one for one in mentioned}.values() for one in scene.presets]
-        assert sum(one == title or (title[-1] == "…" and one.startswith(title[:-1])) for one in examples) == 1, title
+        examples = [one for scene in {one.name: one for one in mentioned}.values() for one in scene.presets]
+        assert len(named(examples, title)) == 1, title
     headings = {heading for scene in mentioned for heading in re.findall(r"^#+ (.+)$", scene.words, re.MULTILINE)}
     assert set(re.findall(r"“([^”]+)”", where)) <= headings
 

@@ -18,9 +18,6 @@ def drag(explorer, start, end):
 
 @pytest.mark.parametrize("scene", ["rotation-number"])
 def test_a_box_zooms_in_a_click_and_a_drag_choose_and_all_of_it_is_undone(explorer):
-    def here():
-        return explorer.shown("h")[0], explorer.shown("f")[0]
-
     group = explorer.page.locator(".group-chart")
     explorer.unfold("chart")
     assert group.is_visible()
@@ -32,16 +29,16 @@ def test_a_box_zooms_in_a_click_and_a_drag_choose_and_all_of_it_is_undone(explor
     assert explorer.data("chart-numbers")["x"] == approx(zoomed[:1])
     _, (dx, dy) = at(explorer, "chart", 1.0, 0.0)
     click_on(explorer, "chart", 1.0, 0.0)
-    assert here() == (approx(1.0, abs=dx), approx(0.0, abs=dy))
+    assert explorer.torus() == (approx(1.0, abs=dx), approx(0.0, abs=dy))
     # The ring is dragged, and the other pictures follow.
-    drag(explorer, here(), (1.5, -0.5))
-    h, f = here()
+    drag(explorer, explorer.torus(), (1.5, -0.5))
+    h, f = explorer.torus()
     assert (h, f) == (approx(1.5, abs=2 * dx), approx(-0.5, abs=2 * dy))
     assert explorer.axes("chart") == zoomed
     assert [explorer.data("map-here")[name][0] for name in "xy"] == approx([h, f], abs=1e-6)
     assert explorer.wait_url(chart="trace", h=h, f=f)["chart_window"].count(",") == 2
     explorer.change(explorer.page.locator(".param-undo").click)
-    assert here()[0] == approx(1.0, abs=dx)
+    assert explorer.torus()[0] == approx(1.0, abs=dx)
     explorer.change(explorer.tool, "clear")
     assert explorer.axes("chart") == approx(whole)
     # Its choices are there while it is.

@@ -5,20 +5,15 @@ from support.page import DEFAULTS, HESS
 from support.suslov_hess import assert_orbit
 
 
-def numbers(explorer):
-    """h and f."""
-    return explorer.shown("h")[0], explorer.shown("f")[0]
-
-
 def test_undo_and_redo_go_through_all_that_was_done_and_one_drag_is_one_step(explorer):
     """What is a step is tested without a browser (`static/history.test.mjs`)."""
     page = explorer.page
     undo, redo = page.locator(".param-undo"), page.locator(".param-redo")
     explorer.goto(f"/?scene={HESS}")
     assert undo.is_disabled() and redo.is_disabled()
-    seen = [numbers(explorer)]
+    seen = [explorer.torus()]
     explorer.change(explorer.type, "f", "0.3")
-    seen.append(numbers(explorer))
+    seen.append(explorer.torus())
     box = explorer.slider("h").bounding_box()
     middle = box["y"] + box["height"] / 2
     page.mouse.move(box["x"] + 0.4 * box["width"], middle)
@@ -26,13 +21,13 @@ def test_undo_and_redo_go_through_all_that_was_done_and_one_drag_is_one_step(exp
     for share in (0.45, 0.6):
         explorer.change(page.mouse.move, box["x"] + share * box["width"], middle)
     explorer.change(page.mouse.up)
-    seen.append(numbers(explorer))
+    seen.append(explorer.torus())
     assert len({*seen}) == 3
     explorer.enter("loxodrome")
     # With the keys, from wherever the focus is.
     for shown in reversed(seen):
         explorer.change(page.keyboard.press, "Control+z")
-        assert numbers(explorer) == shown
+        assert explorer.torus() == shown
     assert undo.is_disabled()
     assert_orbit(explorer, DEFAULTS)
     explorer.change(redo.click)
@@ -44,7 +39,7 @@ def test_undo_and_redo_go_through_all_that_was_done_and_one_drag_is_one_step(exp
     # The browser undoes text that is still being typed.
     explorer.box("h").fill("9")
     explorer.box("h").press("Control+z")
-    assert numbers(explorer) == seen[2]
+    assert explorer.torus() == seen[2]
 
 
 def test_back_and_forward_go_by_scenes_and_examples_and_do_not_reload(explorer):
@@ -63,11 +58,11 @@ def test_back_and_forward_go_by_scenes_and_examples_and_do_not_reload(explorer):
 
     for h, f in ((0.2, 0.25), (0.7, 0.6)):
         go("back", HESS)
-        assert numbers(explorer) == (h, f)
+        assert explorer.torus() == (h, f)
         assert explorer.wait_url(h=str(h), f=str(f))["scene"] == HESS
     for name in (HESS, "loxodrome"):
         go("forward", name)
     assert page.evaluate("window.kept")
     # Going back is a change as any other: it can be undone.
     explorer.change(page.keyboard.press, "Control+z")
-    assert numbers(explorer) == (0.2, 0.25)
+    assert explorer.torus() == (0.2, 0.25)

@@ -19,10 +19,10 @@ def picture(explorer, clip):
     return np.asarray(Image.open(BytesIO(shot)).convert("RGB")).astype(int)
 
 
-def like(pixels, colour, tolerance=24):
+def like(pixels, colour):
     """Return a mask of the pixels of this colour."""
     rgb = [int(colour[i : i + 2], 16) for i in (1, 3, 5)]
-    return np.abs(pixels - rgb).max(axis=-1) <= tolerance
+    return np.abs(pixels - rgb).max(axis=-1) <= 24
 
 
 # --- What is painted ---------------------------------------------------------------------------------

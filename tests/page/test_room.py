@@ -15,12 +15,12 @@ from support.barcode import read
 from support.page import PHONE, POINTS, TOUCHED, own_tab
 from support.room import Follower
 
-LESSON = next(
-    one
+LESSON, STEP = next(
+    (one, i)
     for one in package_lessons().values()
-    if any(step.prediction and step.prediction.kind == "point" for step in one.steps)
+    for i, step in enumerate(one.steps, 1)
+    if step.prediction and step.prediction.kind == "point"
 )
-STEP = next(i for i, step in enumerate(LESSON.steps, 1) if step.prediction and step.prediction.kind == "point")
 ASKED = LESSON.steps[STEP - 1].prediction
 # Guesses of others, as shares of the axes.
 OTHERS = [(0.2, 0.3), (0.7, 0.8)]

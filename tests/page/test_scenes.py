@@ -20,7 +20,6 @@ SCENES = scenes()
 # The menu offers only the accuracy page of the current scene.
 OFFERED = [name for name, scene in SCENES.items() if scene.origin in (None, HESS)]
 GROUPS = list(dict.fromkeys(SCENES[name].group for name in OFFERED))
-"""The width of the pictures that samples and levels are right for."""
 
 
 # These counts would grow if a change of scene leaked anything.

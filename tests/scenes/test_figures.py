@@ -9,17 +9,10 @@ import re
 import numpy as np
 from pytest import approx
 
-from hess_explorer.scenes import scenes
 from support.free_suslov import gamma_at, tensor_of
-from support.mechanics import ROOT
+from support.readme import SCENES, named, table
 
-SCENES = {name: scene for name, scene in scenes().items() if scene.origin is None}
-README = (ROOT / "app/README.md").read_text(encoding="utf-8")
-TABLE = README.partition("## The figures of the paper\n")[2].partition("\n## ")[0]
-ROWS = [
-    [cell.strip() for cell in re.split(r"(?<!\\)\|", row)[1:-1]]
-    for row in re.findall(r"^\| \d.*\|$", TABLE, re.MULTILINE)
-]
+ROWS = table("The figures of the paper")
 LABELS = [
     "fig02",
     "fig0112",
@@ -41,7 +34,7 @@ LABELS = [
 
 def example(scene, name):
     """The only one of that name; where it ends in … it may go on."""
-    found = [one for one in scene.presets if one.name == name or (name[-1] == "…" and one.name.startswith(name[:-1]))]
+    found = named(scene.presets, name)
     assert len(found) == 1, (scene.name, name)
     return found[0]
 

@@ -115,4 +115,3 @@ def test_a_cockpit_has_few_controls_outside_computation(name):
     groups = [spec.group for spec in scene.specs if isinstance(spec, ControlSpec)]
     assert sum(group in ("Body", "State") for group in groups) <= 12
     assert {*groups} <= {"Body", "State", "Computation", "Swarm", "Chart"}
-    assert len(scene.essential) <= 5

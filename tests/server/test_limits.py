@@ -14,15 +14,7 @@ from hess_explorer.server.headers import QUERY_LIMIT
 from hess_explorer.server.limits import MESSAGE_LIMIT
 from hess_explorer.server.websockets import StateSocket
 from support.asynchronous import awaited, finished
-from support.serving import served
 from support.visitor import Visitor
-
-
-@pytest.fixture(scope="module")
-def base():
-    with served() as url:
-        yield url
-
 
 LARGE = "1009: A message may have at most 256 KB: send a smaller one."
 FAST = "1008: More than 2 messages per second: wait for each response before you send again."

@@ -16,19 +16,13 @@ from hess_explorer.scenes import scenes
 from hess_explorer.server.room_socket import Outbox
 from support.asynchronous import awaited
 from support.room import Follower, Lecturer, lecture
-from support.serving import served
 
 ENDED = "4001: The lecture has ended."
 NO_MESSAGE = "1007: This is not a message of a room."
 
-LESSON = next(one for one in package_lessons().values() if any(step.prediction for step in one.steps))
-STEP = next(i for i, step in enumerate(LESSON.steps, 1) if step.prediction)
-
-
-@pytest.fixture(scope="module")
-def base():
-    with served() as url:
-        yield url
+LESSON, STEP = next(
+    (one, i) for one in package_lessons().values() for i, step in enumerate(one.steps, 1) if step.prediction
+)
 
 
 def query(h):

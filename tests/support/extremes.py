@@ -3,7 +3,13 @@
 import numpy as np
 
 import oracle
+from hess_mechanics import HeavyBody
+from hess_mechanics.euler_poisson.andoyer import hess_curve
+from support.andoyer import GESS1
 from support.mechanics import PROMISE
+
+UPRIGHT = HeavyBody((1.0, 1.6, 2.1), (0.0, 0.0, 1.0), 0.7)
+BARRIER = float(hess_curve(GESS1, np.array([0.7]))[0])
 
 
 def assert_promised(error, floor=0.0, admitted=lambda name: False):

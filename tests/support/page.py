@@ -31,6 +31,10 @@ def scene_of(query):
     return query if "scene=" in query else f"scene=suslov-hess&{query}".rstrip("&")
 
 
+def sized(width, height):
+    return {"width": width, "height": height}
+
+
 class Explorer:
     """An open page: user actions, and what it shows."""
 
@@ -89,8 +93,8 @@ class Explorer:
         page.mouse.up()
         self.sent.clear()
         self.received.clear()
-        if page.viewport_size != {"width": WIDE[0], "height": WIDE[1]}:
-            page.set_viewport_size({"width": WIDE[0], "height": WIDE[1]})
+        if page.viewport_size != sized(*WIDE):
+            page.set_viewport_size(sized(*WIDE))
         if not page.url.startswith(self.base) or not self.ready:
             return self.open(f"scene={scene}")
         self.leave_lesson()
@@ -110,7 +114,7 @@ class Explorer:
 
     def resize(self, width, height):
         """Resize the window and wait until everything is repainted."""
-        self.page.set_viewport_size({"width": width, "height": height})
+        self.page.set_viewport_size(sized(width, height))
         wait_frames(self, 4)
 
     @property
@@ -161,6 +165,10 @@ class Explorer:
                 name,
             )
         )
+
+    def torus(self):
+        """(h, f) of their boxes."""
+        return self.shown("h")[0], self.shown("f")[0]
 
     def here(self):
         """(h, f) where the ring stands in the bifurcation diagram."""
@@ -412,9 +420,8 @@ COLOURS = "hess.plots.flatMap(({ model }) => model.below).map((axis) => axis.maj
 @contextmanager
 def own_tab(browser, server, size=WIDE, script="", **options):
     """A tab of its own, in which nothing is loaded yet; at the end assert no errors and no requests to other hosts."""
-    viewport = dict(zip(("width", "height"), size, strict=True))
     # A scene begins at rest.
-    with closing(browser.new_context(viewport=viewport, **{"reduced_motion": "reduce", **options})) as context:
+    with closing(browser.new_context(viewport=sized(*size), **{"reduced_motion": "reduce", **options})) as context:
         context.add_init_script(script)
         explorer = Explorer(context.new_page(), server)
         yield explorer
@@ -432,7 +439,7 @@ def brought_on_phone(phone_tab, scene=HESS):
     page = phone_tab.page
     phone_tab.leave_lesson()
     phone_tab.turn_theme(is_dark=False)
-    if page.viewport_size != dict(zip(("width", "height"), PHONE, strict=True)):
+    if page.viewport_size != sized(*PHONE):
         phone_tab.resize(*PHONE)
     phone_tab.show(scene)
     phone_tab.turn_to(scenes()[scene].pictures[0])

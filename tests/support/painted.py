@@ -39,12 +39,12 @@ def assert_captions_fit(explorer, scene):
         assert words.evaluate("words => words.scrollHeight <= words.clientHeight"), words.inner_text()
 
 
-def alike(found, expected, within=2e-6):
+def alike(found, expected):
     """Return whether two lists have the same texts, and the same numbers up to rounding."""
     texts, numbers = (
         [[x for x in items if isinstance(x, str) == kind] for items in (found, expected)] for kind in (True, False)
     )
-    return texts[0] == texts[1] and numbers[0] == pytest.approx(numbers[1], rel=within, abs=within)
+    return texts[0] == texts[1] and numbers[0] == pytest.approx(numbers[1], rel=2e-6, abs=2e-6)
 
 
 def assert_drawn(explorer, name, values, *pictures):

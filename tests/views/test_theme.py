@@ -2,7 +2,6 @@
 
 import json
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,8 +10,9 @@ from hess_explorer.page.description import describe
 from hess_explorer.scenes import scenes
 from hess_explorer.views import theme
 from support.accessible import contrast, luminance, rgb
+from support.mechanics import ROOT
 
-LOOKS = Path(__file__).resolve().parents[2] / "static/pictures/looks.js"
+LOOKS = ROOT / "static/pictures/looks.js"
 
 
 @pytest.mark.parametrize("page", [0, 1], ids=["light", "dark"])

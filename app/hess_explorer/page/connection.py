@@ -46,7 +46,7 @@ class Connection:
             self._queue.put(partial(self._answer, request))
 
     def end(self) -> None:
-        """Drop the waiting requests, stop the running one and the background work, because the page has closed."""
+        """Drop the waiting requests, and stop the running one and the background work."""
         self._queue.end()
         if "_session" in vars(self):
             self._session.background.stop()

@@ -43,7 +43,7 @@ PRESETS = (
         span=150.0,
     ),
     Preset(
-        "Equal: volume is preserved",
+        "Conservative: volume is preserved",
         **_ball(1.0, 3.0, 0.0, 0.0, 5.0, 0.5, 0.0, 0.8, 2.0),
         along="h",
         first=1.0,

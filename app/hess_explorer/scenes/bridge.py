@@ -332,7 +332,7 @@ SCENE = Scene(
     charts=Charts(torus_charts(lambda s: (s.bridge.hess.a, s.turning_points.h, s.turning_points.f)), over=("h", "f")),
     group="Euler–Poisson",
     essential=("h", "f", "phi0"),
-    answers=(Answer("Two bodies, one motion: a heavy top and a body on wheels, translated into each other."),),
+    answers=(Answer("Two bodies, one motion: a change of variables maps the heavy top to the body on wheels."),),
     title="Bridge: Suslov and Euler–Poisson",
     summary="The Suslov–Hess case and the Hess case of Euler–Poisson are one system: two orbits and their difference.",
     swarm=hess_case.torus_swarm(lambda s: (s.bridge.hess, s.turning_points.h, s.turning_points.f, s.phi0, s.map)),

@@ -72,7 +72,7 @@ PRESETS = (
         chosen="-1.0063,1.1872",
     ),
     Preset(
-        "Equal: volume is preserved",
+        "Conservative: volume is preserved",
         **_body(1.5, 1.0, 0.0, 0.0, 0.4, -0.3, 0.8, 1.643398),
         along="h",
         first=1.0,

@@ -262,8 +262,8 @@ def _energy_caption(s: OwnBodyState) -> Caption:
         off = float(np.abs(change - work).max())
         # A rotor along the axis of the constraint does no work, so W vanishes up to round-off.
         verb = "does" if np.abs(work).max() > _NO_WORK * max(1.0, np.abs(change).max()) else "does no"
-        return Caption(f"The drive {verb} work.", f"|E − E₀ − W| ≤ {digits(off, 1)}.")
-    return Caption("The energy is conserved.", f"|E − E₀| ≤ {digits(float(np.abs(change).max()), 1)}.")
+        return Caption(f"The drive {verb} work.", f"max |E − E₀ − W| = {digits(off, 1)}.")
+    return Caption("The energy is conserved.", f"max |E − E₀| = {digits(float(np.abs(change).max()), 1)}.")
 
 
 def _section_caption(s: OwnBodyState) -> Caption:

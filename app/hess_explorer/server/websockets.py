@@ -109,7 +109,7 @@ class StateSocket(WebSocketHandler):
                 self._connection.receive(request)
 
     def on_close(self) -> None:
-        """End the session, because the page has closed."""
+        """End the session, if there is one, when the websocket has closed."""
         OPEN_SOCKETS.discard(self)
         if self._connection is not None:
             self._connection.end()

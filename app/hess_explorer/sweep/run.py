@@ -164,7 +164,7 @@ def explain(result: xr.Dataset, **cell: float) -> str:
     ------
     InvalidParameter
         If the names of the coordinates are not those of the swept parameters, the computation is not in the catalogue,
-        or a cell of your own function has not failed.
+        or no exception of your own function is stored for the cell.
 
     Examples
     --------
@@ -185,7 +185,9 @@ def explain(result: xr.Dataset, **cell: float) -> str:
     if (failure := json.loads(facts["failures"]).get(cell_name(cell))) is not None:
         return str(failure)
     if facts["source"]:
-        raise InvalidParameter(f"{facts['title']} is your own function: call it at this cell to see the reason.")
+        raise InvalidParameter(
+            f"No exception is stored for this cell of {facts['title']}, your own function: call it with these values."
+        )
     columns = {name: np.array([value]) for name, value in {**json.loads(facts["parameters"]), **cell}.items()}
     numbers = facts["numbers"].split(", ")
     outcome = evaluate(find(facts["computation"]), numbers, columns, as_level(facts["accuracy"]))

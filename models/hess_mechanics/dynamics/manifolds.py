@@ -520,7 +520,7 @@ def heights_at(curve: Manifold, axis: int, value: float) -> Array:
     axis : int
         Index of the coordinate that has the value, 0 or 1.
     value : float
-        The value; angles count on over full turns, as in `Manifold.points`.
+        The value; angles are unwrapped, as in `Manifold.points`.
 
     Returns
     -------

@@ -302,7 +302,7 @@ class _Search:
         problem = Problem.of(body, states)
         if not hasattr(plane, "crossing_kernel"):
             raise InvalidParameter(
-                f"A {type(plane).__name__} is not a surface: give one such as Plane(normal, offset)."
+                f"{type(plane).__name__} is not a surface: give one such as Plane(normal, offset)."
             )
         plane.crossing_kernel(body.system, problem)
         starts = np.array(states, float, ndmin=2)
@@ -506,7 +506,7 @@ class SectionPoints(Result):
     reasons : tuple of str, default ()
         Why each motion ends before the time span does, with time and place; empty for the others.
     angles : tuple of str, default ()
-        Names of the variables that are angles; they count on over full turns.
+        Names of the variables that are angles; they are unwrapped, not reduced to one turn.
     """
 
     states: list[Array]

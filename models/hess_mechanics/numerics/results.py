@@ -113,7 +113,7 @@ def angle_convention(counts: bool) -> str:
     Parameters
     ----------
     counts : bool
-        True if the angle counts on over full turns.
+        True if the angle is unwrapped, not reduced to one turn.
 
     Returns
     -------
@@ -131,7 +131,7 @@ def angle_facts(angles: Iterable[str], counts: bool = True) -> dict[str, str]:
     angles : iterable of str
         Names of the angles.
     counts : bool, default True
-        True if they count on over full turns.
+        True if they are unwrapped, not reduced to one turn.
 
     Returns
     -------
@@ -166,7 +166,7 @@ class Sampled(Result):
     variables : tuple of str
         Names of the variables.
     angles : tuple of str
-        Names of those that are angles; they count on over full turns.
+        Names of those that are angles; they are unwrapped, not reduced to one turn.
     """
 
     dims: ClassVar[tuple[str, ...]] = ("t",)
@@ -228,7 +228,7 @@ class Orbit(Sampled):
     variables : tuple of str
         Names of the variables.
     angles : tuple of str
-        Names of those that are angles; they count on over full turns.
+        Names of those that are angles; they are unwrapped, not reduced to one turn.
     reason : str
         Why the motion ends before the time span does, with time and place; empty if it does not.
     """
@@ -261,7 +261,7 @@ class Ensemble(Sampled):
     variables : tuple of str
         Names of the variables.
     angles : tuple of str
-        Names of those that are angles; they count on over full turns.
+        Names of those that are angles; they are unwrapped, not reduced to one turn.
     errors : ndarray, shape (n,)
         Largest estimated error of each orbit, ∞ for one that is incomplete.
     statuses : tuple of Status
@@ -308,10 +308,10 @@ class SectionCrossings(Sampled):
     variables : tuple of str
         Names of the variables.
     angles : tuple of str
-        Names of those that are angles; they count on over full turns.
+        Names of those that are angles; they are unwrapped, not reduced to one turn.
     time_error : float
-        Largest estimated error of any time, ≥ 0, in units T.  Along a conservative motion it grows, and the error of
-        the states may not.
+        Largest estimated error of any time, ≥ 0, in units T.  It grows along a conservative motion, even where the
+        error of the states does not.
     """
 
     dims = ("crossing",)

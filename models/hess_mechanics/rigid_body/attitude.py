@@ -87,7 +87,7 @@ def attitude_along(times: Array, omega: Array, gamma: Array) -> Attitude:
     Attitude
         The attitude at other times, from the first to the last one given.
     """
-    e, v, moved = (found[0] for found in _carried(times, omega[None], gamma[None]))
+    e, v, moved = (found[0] for found in _carry_orbits(times, omega[None], gamma[None]))
     g = gamma / np.linalg.norm(gamma, axis=1)[:, None]
     step, length = np.diff(times), np.linalg.norm(v, axis=1)
     defect = float(np.max(np.abs(moved - g[1:]), initial=0.0))
@@ -118,7 +118,7 @@ def second_directions(times: Array, omega: Array, gamma: Array) -> Array:
     ndarray, shape (n, m, 3)
         Unit vectors e in the axes of the body, orthogonal to γ.
     """
-    return _carried(times, omega, gamma)[0]
+    return _carry_orbits(times, omega, gamma)[0]
 
 
 def contact_arc(axes: Array, at: Sequence[float] | Array, e: Sequence[float] | Array) -> Array:
@@ -149,7 +149,7 @@ def contact_arc(axes: Array, at: Sequence[float] | Array, e: Sequence[float] | A
     return as_read_only(np.concatenate([[0.0], np.cumsum(arcs)]))
 
 
-def _carried(times: Array, omega: Array, gamma: Array) -> tuple[Array, Array, Array]:
+def _carry_orbits(times: Array, omega: Array, gamma: Array) -> tuple[Array, Array, Array]:
     """Return e, the rotation of each step, and γ after it, of several orbits, see `carry`."""
     n, m, _ = gamma.shape
     e, v, moved = np.empty((n, m, 3)), np.empty((n, m - 1, 3)), np.empty((n, m - 1, 3))

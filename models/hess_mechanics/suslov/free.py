@@ -161,7 +161,7 @@ def shape(body: SuslovBody) -> PassageConstants:
     J = math.hypot(I13, I23)
     if not J > 0.0:
         raise InvalidParameter(
-            "With I13 = I23 = 0 and no field ω is constant: there is no line of equilibria, no ξ and no "
+            "With I13 = I23 = 0 and no field, ω is constant: there is no line of equilibria, no ξ and no "
             "scattering. Choose a nonzero I13 or I23."
         )
     n1, n2 = I13 / J, I23 / J

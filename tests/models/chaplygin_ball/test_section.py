@@ -19,6 +19,7 @@ from support.deviations import deviations
 from support.mechanics import apart
 from support.refusals import refused
 from support.thorough import sample
+from support.view import values_of
 
 GENERAL = BallBody(1.5, 3.0, -0.3, 0.2, 1.0, 1.0, -0.7, 0.7)
 PLAIN = BallBody(1.0, 3.0, 0.0, 0.0, 5.0, 0.5, 0.0, 0.8)
@@ -34,7 +35,7 @@ SCENE = scenes()["ball-section"]
 
 def example(name):
     """The ball of an example of the scene and its energy E, h above the lowest one of the plane γ3 = 0."""
-    values = SCENE.defaults() | next(one for one in SCENE.presets if one.name.startswith(name)).values
+    values = SCENE.defaults() | values_of(SCENE, name)
     body = BallBody(*(values[key] for key in ("I11", "I22", "I13", "I23", "D", "b1", "b2", "b3")))
     return body, values["h"] - hypot(body.b1, body.b2)
 

@@ -10,6 +10,9 @@ from hess_mechanics.dynamics.periodic import find_periodic
 from hess_mechanics.errors import InvalidParameter, NoReturn, NotConverged
 from support.maps import arnold, bent_saddle, henon, pendulum, pitchfork
 
+HENON = henon(1.4)
+SADDLE = find_periodic(HENON, (0.6, 0.2), 1)
+
 
 def length_of_parabola(x):
     return 0.5 * x * math.hypot(1.0, 2.0 * x) + 0.25 * math.asinh(2.0 * x)
@@ -39,11 +42,9 @@ def test_the_manifolds_of_a_bent_saddle_are_its_parabola_and_its_axis(side, stre
 
 
 def test_points_are_as_dense_as_the_curvature_asks():
-    m = henon(1.4)
-    saddle = find_periodic(m, (0.6, 0.2), 1)
     counts = []
     for sagitta in (1e-2, 1e-4):
-        curve = manifold(m, saddle, 12.0, sagitta=sagitta, longest=1.0)
+        curve = manifold(HENON, SADDLE, 12.0, sagitta=sagitta, longest=1.0)
         counts.append(len(curve.points))
         # A finer curve tells how far the polyline is from what it stands for.
         middles = [curve.point_at(0.5 * sum(curve.parameters[i : i + 2])) for i in range(1, len(curve.points) - 1)]
@@ -56,10 +57,8 @@ def test_points_are_as_dense_as_the_curvature_asks():
 
 
 def test_homoclinic_points_of_henon_are_homoclinic():
-    m = henon(1.4)
-    saddle = find_periodic(m, (0.6, 0.2), 1)
-    unstable = manifold(m, saddle, 6.0)
-    stable = [manifold(m, saddle, 6.0, stable=True, side=side) for side in (1, -1)]
+    unstable = manifold(HENON, SADDLE, 6.0)
+    stable = [manifold(HENON, SADDLE, 6.0, stable=True, side=side) for side in (1, -1)]
     found = [one for branch in stable for one in crossings_of(unstable, branch)]
     assert len(found) >= 2
     for one in found[:4]:
@@ -68,10 +67,11 @@ def test_homoclinic_points_of_henon_are_homoclinic():
         assert one.is_certain
         # It comes from the saddle and goes there.
         place = one.point
-        closest = min(float(np.abs((place := m.image(place)) - saddle.points[0]).max()) for _ in range(12))
+        closest = min(float(np.abs((place := HENON.image(place)) - SADDLE.points[0]).max()) for _ in range(12))
         assert closest < 1e-3
         back = one.point
-        assert min(float(np.abs((back := m.inverse().image(back)) - saddle.points[0]).max()) for _ in range(14)) < 1e-3
+        away = min(float(np.abs((back := HENON.inverse().image(back)) - SADDLE.points[0]).max()) for _ in range(14))
+        assert away < 1e-3
 
 
 @mark.parametrize(("ripple", "there"), [(0.0, False), (0.1, True)])

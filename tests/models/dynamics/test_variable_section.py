@@ -25,19 +25,10 @@ from hess_mechanics.dynamics.plane_section import AnglePlane
 from hess_mechanics.dynamics.sampling import sampled_orbit
 from hess_mechanics.errors import InvalidParameter, NoReturn, OutsideRegion, WorkLimit
 from hess_mechanics.numerics.accuracy import STANDARD
+from support.henon_heiles import SYSTEM
 from support.mechanics import scipy_crossings, scipy_states
 
 E = 1 / 12
-SYSTEM = System(
-    "henon-heiles",
-    lambda y, p: (y[2], y[3], -y[0] - 2 * p[0] * y[0] * y[1], -y[1] - p[0] * (y[0] ** 2 - y[1] ** 2)),
-    "x y px py",
-    {"lam": 1.0},
-    example=(0.0, 0.1, 0.35, 0.2),
-    integrals=lambda y, p: {
-        "E": (y[0] ** 2 + y[1] ** 2 + y[2] ** 2 + y[3] ** 2) / 2 + p[0] * (y[0] ** 2 * y[1] - y[1] ** 3 / 3)
-    },
-)
 DRIVEN = System(
     "driven-pendulum",
     lambda y, p: (y[1], -np.sin(y[0]) - p[0] * y[1] + p[1] * np.cos(y[2]), p[2]),

@@ -7,7 +7,6 @@ from math import acos, cos, pi, remainder, sqrt
 
 import numpy as np
 from pytest import approx, mark
-from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from hess_mechanics import section, solve, systems
@@ -17,31 +16,18 @@ from hess_mechanics.euler_poisson.andoyer import SHEETS, AndoyerPlane, AndoyerSe
 from hess_mechanics.euler_poisson.equations import SYSTEM, HeavyBody
 from hess_mechanics.numerics.accuracy import PRECISE, STANDARD
 from support.andoyer import GESS1, RIS, angles, energies_at, energy, rates
-from support.mechanics import apart
+from support.mechanics import apart, scipy_crossings
 from support.refusals import refused
 from support.thorough import sample
 
 
 def crossings_by_scipy(body, state, end):
     """Times and states where the angle g grows through π/2."""
-
-    def event(_, y):
-        return cos(angles(y)[1][0])
-
-    event.direction = -1
-    run = solve_ivp(
-        lambda _, y: rates(body, y),
-        (0.0, end),
-        state,
-        method="DOP853",
-        rtol=1e-12,
-        atol=1e-13,
-        events=event,
-        max_step=0.02 * end,
+    times, states = scipy_crossings(
+        lambda y: rates(body, y), state, lambda y: cos(angles(y)[1][0]), end, -1, max_step=0.02 * end
     )
-    times, states = run.t_events[0], run.y_events[0].reshape(-1, 6)
     # cos g falls also where g comes down through −π/2.
-    counted = (times > 1e-9 * end) & (np.sin(angles(states)[1]) > 0.0)
+    counted = np.sin(angles(states)[1]) > 0.0
     return times[counted], states[counted]
 
 
@@ -106,12 +92,12 @@ def test_seeds_are_in_their_window_spread_evenly_and_on_the_section():
 # ---- Sheets -----------------------------------------------------------------------------------------------------
 
 
-def all_roots(body, h, f, l, x, count=20_000):
+def all_roots(body, h, f, l, x):
     """Every G ≥ |f| with this energy at one place, falling: a dense search in α, |f|/G = cos α, then Brent's method."""
     top = sqrt(2.0 * (h + body.strength) / min(body.a))
     if top <= abs(f):
         return []
-    alpha = np.linspace(acos(abs(f) / top), 0.0, count)
+    alpha = np.linspace(acos(abs(f) / top), 0.0, 20_000)
 
     def excess(angle):
         return energies_at(body, f, l, x, abs(f) / np.cos(np.atleast_1d(angle))) - h

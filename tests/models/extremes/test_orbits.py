@@ -8,8 +8,9 @@ from pytest import mark, param, raises
 import oracle
 from hess_mechanics import HeavyBody, solve, systems
 from hess_mechanics.errors import InvalidParameter
-from hess_mechanics.euler_poisson.andoyer import AndoyerSection, hess_curve
-from support.extremes import assert_promised, off
+from hess_mechanics.euler_poisson.andoyer import AndoyerSection
+from support.andoyer import GESS1
+from support.extremes import BARRIER, UPRIGHT, assert_promised, off
 
 HESS, SUSLOV, BALL = (systems()[name] for name in ("hess", "suslov", "ball"))
 UP = (0.6, 0.0, 0.8)
@@ -17,7 +18,6 @@ START = (0.8, -0.4, *UP)
 FIELD = (0.3, -0.5, 1.0)
 TENSOR, LONG, SMALL = (2.0, 1.0, 0.3, 0.5), (1e6, 1.0, 0.3, 200.0), (1.0, 1e-6, 3e-7, 5e-4)
 BOTTOM = -1 + 1e-12
-GESS1, UPRIGHT = HeavyBody.hess((1.0, 0.625, 0.375), 9.975), HeavyBody((1.0, 1.6, 2.1), (0.0, 0.0, 1.0), 0.7)
 HEAVY_UP = (0.36, 0.48, 0.8)
 HEAVY_START = (1.3, -2.0, 0.7, *HEAVY_UP)
 SADDLE = 1e-11
@@ -60,8 +60,6 @@ def pendulum(name, a, h, times, phi=0.4, b=1.0, **options):
 def at_rest(body, state, time):
     return motion("at rest", body, state, [time], lambda: np.array([state]), unit=1.0)
 
-
-BARRIER = float(hess_curve(GESS1, np.array([0.7]))[0])
 
 MOTIONS = [
     pendulum("separatrix, h = 1 exactly", 0.5, 1.0, [1.0, 5.0, 10.0], phi=pi / 2),

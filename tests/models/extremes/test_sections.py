@@ -7,12 +7,10 @@ from pytest import mark, param
 import oracle
 from hess_mechanics import HeavyBody, SuslovBody, section
 from hess_mechanics.dynamics.system import Problem
-from hess_mechanics.euler_poisson.andoyer import AndoyerSection, hess_curve
+from hess_mechanics.euler_poisson.andoyer import AndoyerSection
 from hess_mechanics.suslov.suslov_section import SuslovSection
-from support.extremes import assert_promised, off
-
-GESS1, UPRIGHT = HeavyBody.hess((1.0, 0.625, 0.375), 9.975), HeavyBody((1.0, 1.6, 2.1), (0.0, 0.0, 1.0), 0.7)
-BARRIER = float(hess_curve(GESS1, np.array([0.7]))[0])
+from support.andoyer import GESS1
+from support.extremes import BARRIER, UPRIGHT, assert_promised, off
 
 
 def suslov(E, k=3, I11=1.5, I22=3.0, I13=0.4, I23=0.4, b3=0.7):

@@ -6,7 +6,6 @@ import numpy as np
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from pytest import approx, mark
-from scipy.integrate import solve_ivp
 
 from hess_mechanics import (
     circle_map,
@@ -19,7 +18,7 @@ from hess_mechanics import (
 )
 from hess_mechanics.errors import Separatrix, WorkLimit
 from hess_mechanics.suslov_hess.mode_locking import rotation_number_window
-from support.mechanics import angle_between
+from support.mechanics import angle_between, followed
 from support.refusals import refused
 
 
@@ -39,8 +38,7 @@ def lifted_return(a, h, f, phases):
         )
 
     start = np.concatenate(([turning.roots[1], 0.0], phases))
-    run = solve_ivp(rates, (0.0, turning.period), start, method="DOP853", rtol=1e-12, atol=1e-12)
-    return run.y[2:, -1]
+    return followed(rates, start, [turning.period], 1e-12, 1e-12)[0, 2:]
 
 
 REFERENCE, STANDARD, DRAFT = level("reference"), level("standard"), level("draft")

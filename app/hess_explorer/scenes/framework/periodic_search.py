@@ -75,7 +75,7 @@ class Periodic(Protocol):
 
     @property
     def is_searching(self) -> bool:
-        """True until the requested orbit is known."""
+        """True while the requested orbit is being searched for; False after a search without result, too."""
 
     @property
     def growth(self) -> tuple[float, float] | None:

@@ -109,7 +109,7 @@ class SectionPeriodicOrbit(Part[Section]):
 
     @property
     def is_searching(self) -> bool:
-        """True until the requested periodic orbit is known."""
+        """True while the requested orbit is being searched for; False after a search without result, too."""
         return self._search is not None and self._result is None
 
     @property

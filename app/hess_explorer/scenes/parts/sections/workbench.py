@@ -95,7 +95,7 @@ class SectionState(State, ABC):
 
     @cached_property
     def solid(self) -> Solid:
-        """The body along the orbit; by default a body of the Suslov problem."""
+        """The body along the orbit; by default a body of the Suslov problem with e = e3, or a ball."""
         return constrained_solid(self.work, self.body, self.orbit.path)
 
     def motion(self) -> Motion | None:
