@@ -71,7 +71,7 @@ def two(step):
 
 
 ROWS = {
-    "For this body that is about 16 units. With its 16 digits the computer is lost long before $t$ = 300": (
+    "For this body that is about 16 units. With its 16 digits the computer is lost before $t$ = 240": (
         bought_by_a_digit
     ),
     "up to $t$ = 400 and sees": lambda s: (hardly_moves,),

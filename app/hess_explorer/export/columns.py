@@ -293,7 +293,7 @@ def _blocks(columns: Columns) -> Iterator[Block]:
             yield {"x": np.tile(across, m), "y": np.repeat(up, n), "value": cells.ravel()}
     elif "xs" in columns:
         for part, (xs, ys) in enumerate(zip(columns["xs"], columns["ys"], strict=True)):
-            # An area is a list of parts, each with an outer curve and holes.
+            # An area is a list of one part, which has an outer curve and holes.
             is_curve = isinstance(xs, np.ndarray)
             for ring, (x, y) in enumerate(zip(*(([xs], [ys]) if is_curve else (xs[0], ys[0])), strict=True)):
                 indices = (part,) if is_curve else (part, ring)

@@ -289,7 +289,7 @@ SCENE = Scene(
             layers=(
                 region(
                     "forbidden",
-                    lambda s: plane.ring_outside(s.strip.sigma2(_ANGLES), s.strip.sigma1(_ANGLES), s.half_width),
+                    lambda s: plane.ring_complement(s.strip.sigma2(_ANGLES), s.strip.sigma1(_ANGLES), s.half_width),
                     edge=theme.MUTED,
                     label="impossible",
                     tag="impossible",

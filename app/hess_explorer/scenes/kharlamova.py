@@ -201,7 +201,7 @@ class Kharlamova(State):
         return PotentialBody(self.I11, self.I22, *POTENTIALS[self.potential])
 
     @cached_property
-    def other(self) -> PlaneMotion:
+    def other_motion(self) -> PlaneMotion:
         """The motion from the same start in the other potential."""
         return self.work.need(Task(motion_from, self.other_body, self.start, self.span, self.level))
 
@@ -430,7 +430,7 @@ SCENE = Scene(
             ),
         ),
         plane_potential.picture(
-            lambda s: s.potential, lambda s: s.other_body, lambda s: s.other, Kharlamova.half_width
+            lambda s: s.potential, lambda s: s.other_body, lambda s: s.other_motion, Kharlamova.half_width
         ),
         Plot(
             name="curve",

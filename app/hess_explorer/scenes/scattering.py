@@ -97,7 +97,7 @@ class ScatteringState(State):
 
     @cached_property
     def points(self) -> Equilibria:
-        """The equilibria at the energy with ω0 = 1; nothing else depends on the energy."""
+        """The equilibria at the energy with ω0 = 1; without a field the energy sets only the unit of time."""
         return equilibria_of_unit_rate(self.body)
 
     @cached_property

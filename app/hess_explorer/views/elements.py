@@ -122,7 +122,7 @@ def _element(layer: Layer[Any], columns: Columns, colour: Colour) -> hv.Element:
 
 
 def with_options(element: Any, options: Mapping[str, Options]) -> Any:
-    """Return an element with its options by backend."""
+    """Return an element with the options of each loaded backend; options of other backends are ignored."""
     # HoloViews rejects options of a backend that is not loaded.
     for backend in set(options) & set(hv.Store.loaded_backends()):
         element = element.opts(getattr(hv.opts, type(element).__name__)(backend=backend, **options[backend]))

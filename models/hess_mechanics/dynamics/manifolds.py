@@ -146,15 +146,15 @@ class _Curve:
 
     def point_at(self, tau: float) -> Array:
         count = max(0, math.floor(tau))
-        return self.map_.iterate(self._near(self.multiplier ** (tau - count)), count * self.returns)
+        return self.map_.iterate(self._point_near_saddle(self.multiplier ** (tau - count)), count * self.returns)
 
-    def _near(self, sigma: float) -> Array:
+    def _point_near_saddle(self, sigma: float) -> Array:
         return np.asarray(self.saddle + sigma * self.away + sigma * sigma * self.bend)
 
     def third_order(self) -> float:
         """Return the distance of F(σ = 1/λ) from the point σ = 1 of the first piece: its third order, and round-off."""
-        there = self.map_.iterate(self._near(1.0 / self.multiplier), self.returns)
-        return float(np.linalg.norm(difference(self.map_.turns, there, self._near(1.0))))
+        there = self.map_.iterate(self._point_near_saddle(1.0 / self.multiplier), self.returns)
+        return float(np.linalg.norm(difference(self.map_.turns, there, self._point_near_saddle(1.0))))
 
 
 def _begun(map_: Map, orbit: PeriodicOrbit, side: int, index: int) -> _Curve:

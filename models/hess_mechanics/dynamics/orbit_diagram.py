@@ -299,7 +299,10 @@ def _after_transient(map_: OrbitMap, origin: Array, transient: int, crossings: i
 
 
 def _has_approached(map_: OrbitMap, orbit: Array) -> bool:
-    """Return True if the points (n, d) close a thousand times better than before, and to a tenth of the map's error."""
+    """Return True if an orbit (n, d) has come close to a periodic one.
+
+    For some m its last m-step distances are at most 1e-3 of the first ones, and at most 0.1 of the map's promise.
+    """
     for m in range(1, min(_WATCHED, len(orbit) - 1) // 3 + 1):
         steps = np.abs(difference(map_.turns, orbit[m:], orbit[:-m])).max(axis=1)
         first, last = float(steps[:m].max()), float(steps[-m:].max())

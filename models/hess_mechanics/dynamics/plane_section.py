@@ -301,9 +301,7 @@ class _Search:
             raise WorkLimit(f"crossings = {crossings}: choose a number between 1 and {MAX_CROSSINGS}.")
         problem = Problem.of(body, states)
         if not hasattr(plane, "crossing_kernel"):
-            raise InvalidParameter(
-                f"{type(plane).__name__} is not a surface: give one such as Plane(normal, offset)."
-            )
+            raise InvalidParameter(f"{type(plane).__name__} is not a surface: give one such as Plane(normal, offset).")
         plane.crossing_kernel(body.system, problem)
         starts = np.array(states, float, ndmin=2)
         longest = as_max_step(max_step, problem)

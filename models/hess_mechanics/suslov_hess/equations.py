@@ -107,7 +107,10 @@ class HessBody:
 
     @property
     def n3(self) -> Array:
-        """The direction of n3 in the axes of the body, reversed if b < 0 as in units b = 1; shape (3,)."""
+        """The unit vector of the n3 axis in the axes of the body, shape (3,); reversed if b < 0, as in units b = 1.
+
+        If b = 0, its sign is arbitrary.
+        """
         return np.asarray(math.copysign(1.0, self.b) * self.turn[2], float)
 
     def tensor(self, I33: float) -> Array:

@@ -11,7 +11,7 @@ from hess_explorer.views import theme
 from hess_explorer.views.caption import Caption
 from hess_explorer.views.layers import Columns, Layers, Regions, line, region
 from hess_explorer.views.maps.circle_map import cycles
-from hess_explorer.views.plane.velocity_plane import band, ring_outside, velocity_columns
+from hess_explorer.views.plane.velocity_plane import band, ring_complement, velocity_columns
 from hess_explorer.views.text import digits, range_text
 from hess_mechanics.numerics.results import Array
 from hess_mechanics.suslov_hess.bifurcation import TurningPoints
@@ -42,7 +42,7 @@ def layers(
     return (
         region(
             "forbidden",
-            lambda s: ring_outside(*ring(s), half_width(s)),
+            lambda s: ring_complement(*ring(s), half_width(s)),
             edge=theme.MUTED,
             label="impossible",
             tag="impossible",

@@ -166,7 +166,7 @@ def exterior(curve: Array, half_width: float) -> list[Array]:
     return [square(half_width), curve]
 
 
-def ring_outside(inner: Array, outer: Array, half_width: float) -> Regions:
+def ring_complement(inner: Array, outer: Array, half_width: float) -> Regions:
     """Return the complement of the ring between two closed curves (m, 2), out to four half widths, as a region."""
     return [exterior(outer, 4.0 * half_width), [inner]]
 

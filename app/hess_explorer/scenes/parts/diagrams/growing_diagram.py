@@ -236,7 +236,7 @@ class OrbitDiagram(Part[DiagramControls]):
             first = digits(self.flips[0])
             return Caption(
                 f"{many} located.",
-                f"{points}The first of period {found.periods[0]} at {self.host.along} = {first}{ratio}.",
+                f"{points}The orbit of period {found.periods[0]} doubles at {self.host.along} = {first}{ratio}.",
             )
         periods = sorted({int(m) for one in self.pieces[RISING] for m in one.periods if m})
         if not periods:
