@@ -172,7 +172,8 @@ class SceneState:
         Returns
         -------
         Table
-            The columns in double precision.
+            The columns: numbers in double precision, except that points of clouds and swarms are only as precise as the
+            page receives them, in single precision and 16 bits; "layer" and other labels are texts.
 
         Raises
         ------
