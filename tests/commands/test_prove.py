@@ -27,7 +27,7 @@ def test_the_certificate_proves_what_the_words_say(answer, capsys, tmp_path):
     assert main(["prove", *TORUS, "--format", "json", "--out", str(path)]) == 0
     assert {**json.loads(path.read_text()), "seconds": 0} == {**found, "seconds": 0}
     assert main(typed("prove --a 0 --h 2 --f 0 --bits 64")) == 0
-    assert capsys.readouterr().out.startswith("Undecided at 64 bits: the intervals do not tell whether the torus h = 2, f = 0")
+    assert capsys.readouterr().out.startswith("Undecided at 64 bits: the intervals do not tell whether the torus h")
 
 
 @pytest.mark.parametrize(
