@@ -153,11 +153,22 @@ def test_the_cost_of_all_is_measured_when_its_picture_is_unfolded():
     assert view.result.costs.caption().numbers == "Cheapest levels without a visible error: orbit draft, map standard."
 
 
-def test_a_chaotic_section_has_no_error_and_says_so():
+def section_costs(error):
+    """Return the costs of a section whose error is the same at all levels."""
     trial = next(one for one in SUSLOV.trials if one.kind == Kind.SECTION)
-    costs = tuple(LevelCost(name, 1.0, nan, True) for name in LEVELS)
+    costs = tuple(LevelCost(name, 1.0, error, True) for name in LEVELS)
     work = types.SimpleNamespace(is_preview=False, need=lambda *_, **__: costs)
-    found = Costs(work, bare_state(SUSLOV.of(SUSLOV.defaults())), (trial,))
+    return Costs(work, bare_state(SUSLOV.of(SUSLOV.defaults())), (trial,))
+
+
+def test_an_error_that_stays_visible_is_said_and_no_level_recommended():
+    found = section_costs(1e3)
+    assert (found.caption().numbers, found.rings()) == ("Section has a visible error at every level.", [])
+    assert section_costs(0.0).caption().numbers == "Cheapest levels without a visible error: section draft."
+
+
+def test_a_chaotic_section_has_no_error_and_says_so():
+    found = section_costs(nan)
     assert found.caption().numbers == "Section has no error to measure: everything is chaotic, or nothing is drawn."
     assert (found.curves, found.rings(), found.level("draft"), [*found.rows()]) == ({}, [], None, [])
 

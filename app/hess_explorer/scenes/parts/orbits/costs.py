@@ -62,8 +62,12 @@ class Costs:
 
     @cached_property
     def sufficient_levels(self) -> dict[Trial[Any], str]:
-        """The cheapest level of each trial with full resolution and an invisible error; the finest if there is none."""
-        return {trial: first_sufficient(samples, trial.tolerance) for trial, samples in self.samples.items()}
+        """The cheapest level with full resolution and an invisible error, of the trials that have one."""
+        return {
+            trial: first_sufficient(samples, trial.tolerance)
+            for trial, samples in self.samples.items()
+            if any(one.complete and one.error <= trial.tolerance for one in samples)
+        }
 
     @cached_property
     def curves(self) -> dict[Trial[Any], tuple[Array, Array]]:
@@ -85,7 +89,7 @@ class Costs:
             (float(x), float(y))
             for trial, samples in self.samples.items()
             for one, x, y in zip(samples, *self.curves[trial], strict=True)
-            if one.level == levels[trial]
+            if one.level == levels.get(trial)
         ]
 
     def level(self, name: str) -> Sequence[Sequence[float]] | None:
@@ -112,6 +116,8 @@ class Costs:
                 sentences.append(f"{trial.kind} cannot be measured: {found.reason}")
             elif trial not in self.samples:
                 sentences.append(f"{trial.kind} has no error to measure: everything is chaotic, or nothing is drawn.")
+            elif trial not in self.sufficient_levels:
+                sentences.append(f"{trial.kind} has a visible error at every level.")
         if self.sufficient_levels:
             least = ", ".join(f"{trial.kind} {name}" for trial, name in self.sufficient_levels.items())
             sentences.insert(0, f"Cheapest levels without a visible error: {least}.")
