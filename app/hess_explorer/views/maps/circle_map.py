@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import TypeVar
 
 import numpy as np
@@ -42,8 +43,14 @@ def _copies(circle_map: CircleMap) -> list[Array]:
     return [np.column_stack([phi, theta + turn]) for turn in (0.0, -2 * math.pi, 2 * math.pi)]
 
 
-def _fixed_points(circle_map: CircleMap, stable: bool) -> tuple[list[float], list[float]]:
-    found = [point.phi for point in circle_map.fixed_points if (point.log_multiplier <= 0) == stable]
+def _fixed_points(circle_map: CircleMap, layer: str) -> tuple[list[float], list[float]]:
+    """Return the coordinates of the fixed points of a layer: "stable", "unstable", or "merged" of a parabolic map."""
+    found = [
+        point.phi
+        for point in circle_map.fixed_points
+        if layer
+        == ("merged" if circle_map.kind == "parabolic" else "stable" if point.log_multiplier < 0.0 else "unstable")
+    ]
     return found, found
 
 
@@ -65,7 +72,7 @@ def picture(
 ) -> Plot[S]:
     """Return the plot of a circle map, with its fixed points or its invariant density, and a cobweb.
 
-    Stable fixed points are filled, unstable ones hollow; the fixed point of a parabolic map counts as stable.
+    Stable fixed points are filled, unstable ones and the merged one of a parabolic map are hollow.
 
     Parameters
     ----------
@@ -114,24 +121,18 @@ def picture(
                 width=1,
             ),
             curves("map", compose(map, _copies), color=theme.MAP, width=2.5, label="Θ", tag="Θ"),
-            points(
-                "stable",
-                compose(map, lambda theta: _fixed_points(theta, True)),
-                columns=here,
-                size=12,
-                edge_width=3,
-                color=theme.STABLE,
-                tag="stable",
-            ),
-            points(
-                "unstable",
-                compose(map, lambda theta: _fixed_points(theta, False)),
-                columns=here,
-                size=12,
-                edge_width=3,
-                hollow=True,
-                color=theme.UNSTABLE,
-                tag="unstable",
+            *(
+                points(
+                    name,
+                    compose(map, partial(_fixed_points, layer=name)),
+                    columns=here,
+                    size=12,
+                    edge_width=3,
+                    hollow=name != "stable",
+                    color=color,
+                    tag=name,
+                )
+                for name, color in (("merged", theme.SHEET), ("stable", theme.STABLE), ("unstable", theme.UNSTABLE))
             ),
         ),
     )

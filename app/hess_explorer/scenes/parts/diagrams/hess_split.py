@@ -94,10 +94,11 @@ class HessSplit(Part[Host]):
         """Return the caption: whether the separatrices are split at the current ε, and by how much."""
         if self._splits is None:
             return Caption(self.work.pending_caption())
-        if self.split is None or self.slope is None:
+        if self.split is None:
             return Caption("No separatrices found here.")
         value, error = self.split.value, self.split.error
-        where = f"at l = {digits(self.split.l)}; as ε → 0: {digits(self.slope[0], 4)} ε."
+        slope = "" if self.slope is None else f"; as ε → 0: {digits(self.slope[0], 4)} ε"
+        where = f"at l = {digits(self.split.l)}{slope}."
         if self.away and abs(value) <= error:
             return Caption("No separatrix splitting is visible.", f"Less than {digits(error, 1)} {where}")
         if abs(value) <= error:
