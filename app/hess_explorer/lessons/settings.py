@@ -73,9 +73,9 @@ def state_of_link(text: object, line: int) -> StateLink:
 
 
 def example_of(begins: object, before: StateLink | None, line: int) -> StateLink:
-    """Return the state of the only example of a scene whose name begins with a text.
+    """Return the state of the only example whose name begins with a text, in the scene of `before` or the first scene.
 
-    The scene is that of the state `before`, by default the first one.
+    Raises `LessonError` unless exactly one example matches.
     """
     scene = next(iter(scenes().values())) if before is None else scenes()[before.scene]
     found = [one for one in scene.presets if isinstance(begins, str) and begins and one.name.startswith(begins)]

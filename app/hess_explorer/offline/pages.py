@@ -158,7 +158,7 @@ def lesson_page(
     home: str = HOME,
     report: Report | None = None,
 ) -> bytes:
-    """Return the HTML file of a lesson: all its steps, with the sliders that they name.
+    """Return the HTML file of a lesson: all its steps, with the sliders that they name or animate.
 
     Parameters
     ----------

@@ -53,7 +53,7 @@ class RequestedState:
         self._set(values)
 
     def change(self, values: Values) -> None:
-        """Set values; when a choice changes, also set the numbers that keep the motion continuous."""
+        """Set values; when a choice changes, also apply the scene's `adjustments` to the other parameters."""
         before = dict(self.values)
         self.notes = []
         self._set(values)

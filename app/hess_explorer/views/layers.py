@@ -327,7 +327,10 @@ def points(
     columns: tuple[str, ...] = ("x", "y"),
     data_in_axes: AxesData[S] = None,
 ) -> Layer[S]:
-    """Return a layer of markers; `data(state)` returns (x, y), (x, y, angle) or None."""
+    """Return a layer of markers; `data(state)` returns one array for each of `columns`, or None.
+
+    A third column "angle" rotates the markers, in radians.
+    """
     small = size < 10 and not hollow
     shape = [marker] if marker in ("diamond", "inverted_triangle") else []
     look = (

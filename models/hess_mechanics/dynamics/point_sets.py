@@ -55,7 +55,7 @@ def nearest(turns: Sequence[float], a: Array, b: Array) -> Array:
 
 
 def distance(turns: Sequence[float], a: Array, b: Array) -> float:
-    """Return the distance between two sets of points: Hausdorff's, with a 95 % quantile in place of the maximum.
+    """Return the Hausdorff distance between two sets of points, with a 95 % quantile in place of the maximum.
 
     Parameters
     ----------

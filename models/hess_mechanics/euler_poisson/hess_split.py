@@ -140,6 +140,8 @@ def saddles(torus: HessTorus, accuracy: Accuracy) -> Saddles:
 
     Raises
     ------
+    InvalidParameter
+        If the moments do not allow the Hess condition.
     OutsideRegion
         If the torus does not exist or does not have two limit cycles, or one of them does not cross the section.
     Separatrix
@@ -199,6 +201,8 @@ def split_at(torus: HessTorus, away: float, accuracy: Accuracy) -> Split:
 
     Raises
     ------
+    InvalidParameter
+        If the moments do not allow the Hess condition, or `away` is not finite.
     OutsideRegion
         If `saddles` does not find two limit cycles in the section.
     Separatrix

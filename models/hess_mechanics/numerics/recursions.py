@@ -156,7 +156,7 @@ class Series:
         return form is self._one or (form.operation == "sum" and all(map(self._is_of_variables, form.arguments)))
 
     def _series(self, form: Node) -> Node:
-        """Return a series that has this form."""
+        """Return the series equal to a form; a form that is not yet a series gets an auxiliary one."""
         if form.operation == "series":
             return form
         if form not in self._places:

@@ -85,12 +85,12 @@ def unit_of(variable: str) -> str:
 
 
 def facts_of(result: Any) -> dict[str, Any]:
-    """Return the facts common to all results.
+    """Return the facts common to results with an error estimate.
 
     Parameters
     ----------
     result : object
-        A result.
+        A result with `level`, `status`, `error_estimate` and `cost`.
 
     Returns
     -------

@@ -582,7 +582,7 @@ class FreeMotion(Result):
     Attributes
     ----------
     times : ndarray of float, shape (m,)
-        Times.
+        Times, in units T.
     omega : ndarray of float, shape (m, 2)
         Angular velocity (ω1, ω2), in rad/T.
     gamma : ndarray of float, shape (m, 3)
