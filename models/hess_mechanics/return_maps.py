@@ -190,7 +190,9 @@ def return_map(
     else:
         section = TorusSection(body.a, *_values_of(values, "h", "f"))
     if longest is not None and not longest > 0.0:
-        raise InvalidParameter(f"longest = {longest:g} is not a time to wait for a return: choose a positive number.")
+        raise InvalidParameter(
+            f"longest = {longest:g}: the longest time to wait for a return must be a positive number."
+        )
     return ReturnMap(section, as_level(accuracy), backward, longest)
 
 

@@ -18,7 +18,7 @@ a = DEFAULTS["I23"] / DEFAULTS["I22"]
     [
         ("Two limit cycles on the torus.", {}),
         ("No limit cycle on the torus.", {"h": 0.2, "f": 0.5}),
-        ("The two cycles have merged.", PRESETS["At the lock boundary (a = 0.5)"]),
+        ("The two cycles have merged.", PRESETS["On the boundary of the Arnold tongue (a = 0.5)"]),
         ("Bifurcation curve: the torus is a circle.", PRESETS["On the bifurcation curve"]),
         ("f = 0: the centre is a circle.", {"h": 0.3, "f": 0.0}),
         ("Separatrix: the centre is the upper equilibrium.", {"h": 1.0, "f": 0.0}),

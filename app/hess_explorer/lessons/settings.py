@@ -185,7 +185,7 @@ def prediction_of(value: object, place: StateLink, line: int) -> Prediction | No
     settings = require_keys(value, "predict", ("picture", "layer", "then"), line)
     then = state_of_link(settings["then"], line) if "then" in settings else place
     if then.scene != place.scene:
-        raise LessonError(f"then must be a state of the same scene, {place.scene}.", line)
+        raise LessonError(f"“then” of predict must link to a state of the same scene, {place.scene}.", line)
     plot, layer = _layer(settings, "predict", scenes()[place.scene], line, (*_CURVES, *_POINTS))
     what: Any = "curve" if layer.glyph in _CURVES else "point"
     return Prediction(plot.name, plot.source_of(layer), (layer.columns[0], layer.columns[1]), what, then)

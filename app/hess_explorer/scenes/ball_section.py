@@ -119,7 +119,7 @@ class BallSectionState(SectionState):
         "Points shown",
         ("all", _LATE),
         "all",
-        doc="The second half of the crossings shows the attractor without the transient.",
+        doc="The later half omits the transient: it shows the attractor, or backward in time the repeller.",
     )
 
     # ---- the motion ---------------------------------------------------------------------------------------------

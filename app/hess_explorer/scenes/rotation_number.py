@@ -79,7 +79,7 @@ class RotationNumber(State):
         (0.0, 0.3),
         0.005,
         bounds=(0.0, 0.33),
-        label="Perturbation ε, not Möbius",
+        label="Perturbation ε of the other family",
         doc="Parameter of the other family Θ(φ + ε sin 3φ), which is not Möbius: its ρ locks at many rational numbers.",
     )
     accuracy: str = accuracy_level()

@@ -118,7 +118,7 @@ class Suslov(FilledState):
         "Points shown",
         ("all", _LATE),
         "all",
-        doc="The second half of the crossings shows the attractor without the transient.",
+        doc="The later half omits the transient: it shows the attractor, or backward in time the repeller.",
     )
     span: float = time_span(60.0, 400.0, what="the chosen orbit")
     starts: str = points("The points of the chosen orbits", 12, *_BOUNDS, "1,1")

@@ -63,7 +63,7 @@ PRESETS = (
     Preset("Two limit cycles"),
     Preset("No cycle: every orbit winds", h=0.2, f=0.5),
     Preset("Smaller a, 0.1: the two cycles are gone (figure 7)", I22=1.0, I23=0.1),
-    Preset("At the lock boundary (a = 0.5)", I22=1.0, I23=0.5, h=0.5, f=1.01563456028796105),
+    Preset("On the boundary of the Arnold tongue (a = 0.5)", I22=1.0, I23=0.5, h=0.5, f=1.01563456028796105),
     Preset("Pendulum, f = 0: multiplier e^(2πa)", h=1.5, f=0.0, I22=1.0, I23=0.3),
     Preset("Oscillation, f → 0: Θ∘Θ = id", h=0.3, f=1e-8),
     Preset("Separatrix: no return", h=1.0, f=0.0),

@@ -373,7 +373,7 @@ def _error(curve: _Curve, points: Array, parameters: Array) -> float:
         along = along / max(float(np.linalg.norm(along)), 1e-300)
         away = difference(curve.map_.turns, there, points[i])
         off = max(off, abs(float(_cross(away, along))))
-    # No point could be compared, so the error is unknown.
+    # The error is unknown, hence infinite, if no point could be compared.
     return SAFETY * off + curve.first_error + 4e-16 if off >= 0.0 else math.inf
 
 

@@ -174,7 +174,7 @@ def shape(body: SuslovBody) -> PassageConstants:
         about = f"about {plain(angle, 2)}" if math.isfinite(angle) else "more than 1e308"
         raise WorkLimit(
             f"γ turns too often while ω passes from the unstable to the stable point ({about} radians; at most "
-            f"{_MAX_SHAPE:g} are computed): choose larger I13, I23, or more similar I11 and I22."
+            f"{_MAX_SHAPE:g} are computed): choose a larger I13 or I23, or more similar I11 and I22."
         )
     return PassageConstants(
         as_read_only(np.array([n2, -n1, 0.0])), as_read_only(np.array([n1, n2, 0.0])), J, w, K, kappa, c
@@ -498,7 +498,7 @@ def transfer(of: PassageConstants, arc: int, u: Array, accuracy: Accuracy) -> tu
             longest = at.longest_step(of.end)
             steps, _ = integrate(start, p, inside[outwards], at.order, at.tolerance, longest, _MAX_STEPS, states)
             if steps < 0:
-                raise WorkLimit("This passage needs too many steps: choose larger I13, I23, or a cheaper accuracy.")
+                raise WorkLimit("This passage needs too many steps: choose a larger I13 or I23, or a cheaper accuracy.")
             out[outwards] = states
             total += steps
         return (out[:, 4] + 1j * out[:, 5], out[:, 6] + 1j * out[:, 7]), total

@@ -104,7 +104,7 @@ def test_the_matrix_gives_the_harmonic_formula(arc):
 
 
 test_refusals = refused(
-    (lambda: scattering(SuslovBody(2.0, 1.0, 0.0, 1e-06), "draft"), "choose larger I13, I23", WorkLimit),
+    (lambda: scattering(SuslovBody(2.0, 1.0, 0.0, 1e-06), "draft"), "choose a larger I13 or I23", WorkLimit),
     (lambda: scattering(GENERIC, "draft", 0), "choose 1 or −1"),
     (lambda: scattering(GENERIC, "draft", 1, 1.23), "choose one above 0 and up to 1.227"),
     (lambda: start(GENERIC, 0.0, 1.0, 0.0, 1e-05), "choose h > 0"),

@@ -159,7 +159,9 @@ def heavy_solid(body: HeavyBody, times: Array, states: Array) -> Solid:
         I1, I2, I3 = (1.0 / a for a in body.a)
         shape = Shape(np.eye(3), np.array([I1, I2, I3]), np.array(HeavyBody.hess((I1, I2, I3), 1.0).r))
         normal = "normal" if body.is_hess else "not normal"
-        about_shape = Caption("Gyration ellipsoid.", f"The centre of mass r is {normal} to its circular section.")
+        about_shape = Caption(
+            "Gyration ellipsoid.", f"The vector r to the centre of mass is {normal} to a circular section."
+        )
     mass = Direction(math.copysign(1.0, body.mu) * np.array(body.r), "r")
     return Solid(times, states[:, :3] * body.a, states[:, 3:], mass, shape, about_shape)
 

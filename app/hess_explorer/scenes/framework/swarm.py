@@ -223,7 +223,7 @@ class _SwarmPart(Part[Any]):
         if found is None:
             return None
         apart = np.linalg.norm(np.diff(found.states * np.array(self._motion.weights), axis=0), axis=2)
-        # Drop distances after the end of either motion, and those below the errors of the two.
+        # A distance is unknown after the end of either motion, and below both ERROR and _ABOVE times the errors.
         both = np.arange(found.times.size) <= np.minimum(found.until[1:], found.until[:-1])[:, None]
         known = both & (apart > np.minimum(_ABOVE * (found.errors[1:] + found.errors[:-1]), ERROR)[:, None])
         ratio = np.where(both & (apart[:, :1] > 0.0), apart / np.maximum(apart[:, :1], 1e-300), np.nan)

@@ -92,7 +92,9 @@ class Indicator(Part[Section]):
             return None
         if self._cells is None or self._cells[1]:
             return Caption(
-                self.work.pending_caption(), f"MEGNO after t = {digits(self.time)}; only coarse cells so far."
+                self.work.pending_caption(),
+                f"MEGNO after t = {digits(self.time)}."
+                + ("" if self._cells is None else " Some cells are still coarse."),
             )
         kinds = self._cells[0][:, 1]
         there = kinds[kinds >= 0.0]
