@@ -247,7 +247,7 @@ ROWS = {
         "$0.1066355$": lambda s: on_the_torus(-0.256),
         "From $-0.2574134$ to $-0.2569055$, between two folds, it is locked: there is an orbit of period 10. At "
         "$-0.257$": lambda s: locked(-0.257),
-        "At $-0.2605$ there is a strange attractor with $\\lambda=0.034\\pm0.003$ and the dimension "
+        "At $I_{13}=-0.2605$ there is a strange attractor with $\\lambda=0.034\\pm0.003$ and the dimension "
         "$2.25\\pm0.02$": lambda s: (s.state.values["I13"], *chaos("orbit-diagram", "A torus", True)[::2]),
         "the eigenvalues $0.282\\pm2.035i$ and $-0.723$": eigenvalues,
         "At $h=5.015931\\pm0.000001$": homoclinic,
