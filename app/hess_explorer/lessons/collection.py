@@ -50,7 +50,7 @@ def examine_files(files: Iterable[Path]) -> Iterator[tuple[Path, Lesson | None, 
 
 
 def files_in(paths: Iterable[Path]) -> Sequence[Path]:
-    """Return the lesson files in a list of files and folders.  Raises `LessonError` as `read_paths`."""
+    """Return the lesson files in a list of files and folders.  Raises `LessonError`, see `read_paths`."""
     files = [file for path in paths for file in _files(path)]
     if len(files) > MAX_LESSONS:
         raise LessonError(f"there are {len(files)} lessons; at most {MAX_LESSONS} are allowed.", 1, str(files[-1]))

@@ -162,7 +162,7 @@ def _value(value: Any) -> Value:
 
 
 def number(value: Any) -> float:
-    """Return the value as a float; NaN if it is not a number or exceeds the double range."""
+    """Return the value as a float; NaN if it is not a number or is an integer beyond the range of doubles."""
     try:
         return float(value) if isinstance(value, int | float) else math.nan
     except OverflowError:

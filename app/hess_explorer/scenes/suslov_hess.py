@@ -246,7 +246,7 @@ class SuslovHess(State):
     # ---- texts --------------------------------------------------------------------------------------------------
 
     def quantities(self) -> Iterator[str]:
-        """Yield a, b, derived data of the body, the integrals in its units, and the period."""
+        """Yield a, b, derived data of the body, the integrals in its units, the period, the proved statement and ζ."""
         body = self.body
         yield f"a = I₂₃/I₂₂ = {digits(body.a)}"
         yield f"b = {digits(body.b)}"

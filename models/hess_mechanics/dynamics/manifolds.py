@@ -68,7 +68,7 @@ class Manifold(Result):
     lengths : ndarray, shape (n,)
         Length along the polyline from the saddle, in units of the coordinates.
     sagitta : float
-        Largest distance between the curve and the polyline, in units of the coordinates.
+        Requested bound on the distance between the curve and the polyline, in units of the coordinates.
     error_estimate : float
         Estimated error of the points across the curve, ≥ 0, in units of the coordinates; ∞ if unknown.
     end_reason : str
@@ -489,7 +489,10 @@ def _refined(one: Manifold, other: Manifold, pair: tuple[int, int]) -> Intersect
 
 
 def _changes_sides(one: Manifold, other: Manifold, tau: Array, chord: float, along: Array) -> bool:
-    """Return True if the first curve changes sides of the second within one chord either way, beyond the errors."""
+    """Return True if the first curve crosses the second: one chord before and after, it lies on opposite sides.
+
+    Both distances must exceed the errors of the curves; False if one of them cannot be computed.
+    """
     speed = float(np.linalg.norm(along))
     u = along / speed
     gaps = []

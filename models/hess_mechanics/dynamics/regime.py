@@ -610,13 +610,13 @@ def comparison(
     Raises
     ------
     InvalidParameter
-        If there are fewer than 8 crossings.
+        If the point does not have d numbers, or `transient` and `crossings` are out of range.
     NoReturn
         If the motion does not return often enough.
     OutsideRegion
         If no motion crosses the section at the point.
     WorkLimit
-        If an orbit needs too many steps.
+        If an orbit needs too many steps, or a motion ends.
     """
     origin = np.array(start, float)
     pairs: list[tuple[Array, Array]] = []

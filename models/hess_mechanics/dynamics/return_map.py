@@ -547,6 +547,8 @@ class ReturnMap:
 
         Raises
         ------
+        InvalidParameter
+            If the point does not have k numbers.
         OutsideRegion
             If no motion crosses the section at the point.
         """

@@ -123,7 +123,7 @@ class Tape:
         return self.leaf("number", int(value) if value == int(value) and abs(value) < 2**53 else float(value))
 
     def node_of(self, x: Any) -> Node:
-        """Return the node of a symbol or a number.  Raises `NotTraceable` for anything else."""
+        """Return the node of a symbol or a finite number.  Raises `NotTraceable` for anything else."""
         if isinstance(x, Symbol):
             return x.node
         if isinstance(x, _Number) and math.isfinite(x):

@@ -285,7 +285,7 @@ class _LongCompilations(event.Listener):  # type: ignore[misc]  # numba has no t
 
 
 def _announcement(event: Any) -> str:
-    """Return the announcement of the kernel that an event of Numba is about; empty for other events."""
+    """Return the announcement of the kernel in a Numba event; empty if it has none, and for other events."""
     return str(getattr(event.data["dispatcher"].py_func, "announcement", "")) if event.kind == "numba:compile" else ""
 
 

@@ -20,18 +20,18 @@ _pool = ThreadPoolExecutor(max_workers=THREADS, thread_name_prefix="kernel")
 def run_in_threads(work: Callable[[int], None], count: int, threads: int = THREADS, at_once: int = 1) -> None:
     """Run work(0), …, work(count − 1) on the thread pool; raise the error of the first item that fails.
 
-    Before each item the request may be cancelled, see `patience`.
+    `check_limit` is called before each item and may raise, see `patience`.
 
     Parameters
     ----------
     work : callable
-        Function of the number of the item.
+        Function of the index of an item.
     count : int
         Number of items.
     threads : int, default THREADS
         1 to run the items in order on the calling thread; any other number uses the whole pool of `THREADS` threads.
     at_once : int, default 1
-        Number of items that a thread takes at a time; so many items or fewer run on the calling thread.
+        Number of items that a thread takes at a time; if `count` is at most this, they run on the calling thread.
     """
 
     def some(first: int, after: int) -> None:

@@ -226,7 +226,7 @@ def time_span(default: float, longest: float, *, step: float = 1.0, most: float 
 
 
 def redeclare(state: type[Any], name: str, default: Value | None = None, **changes: Any) -> Any:
-    """Declare a parameter of another state again, with another default or other arguments of `number` if given."""
+    """Declare a parameter of another state again; `default` and `changes` replace fields of its specification."""
     spec: Any = next(one for one in specs_of(state) if one.name == name)
     return declare(replace(spec, default=spec.default if default is None else default, **changes))
 
