@@ -34,8 +34,8 @@ class Exploration:
     Attributes
     ----------
     url : str
-        Address of the page: for any browser on this machine, or on JupyterHub, Binder and Colab for the browser of the
-        notebook.  JupyterHub and Binder need jupyter-server-proxy.
+        Address of the page.  It works in any browser on this machine; on JupyterHub, Binder and Colab, in the browser
+        of the notebook.  On JupyterHub and Binder, which need jupyter-server-proxy, it is a path without a host.
     """
 
     def __init__(self, first: SceneState, height: int) -> None:

@@ -163,8 +163,10 @@ def closure_error(body: Body, start: Sequence[float], period: float, accuracy: A
 
     Raises
     ------
+    InvalidParameter
+        If a number is not finite or out of range, or the motion exceeds the range of double precision.
     WorkLimit
-        If the motion needs too many steps.
+        If the motion needs too many steps, or ends.
     """
     after = solve(body, start, [period], accuracy).states[0]
     return float(np.abs(after - np.array(start)).max())
