@@ -191,7 +191,7 @@ def return_map(
         section = TorusSection(body.a, *_values_of(values, "h", "f"))
     if longest is not None and not longest > 0.0:
         raise InvalidParameter(
-            f"longest = {longest:g}: the longest time to wait for a return must be a positive number."
+            f"The longest time to wait for a return, longest = {longest:g}: choose a positive number."
         )
     return ReturnMap(section, as_level(accuracy), backward, longest)
 
