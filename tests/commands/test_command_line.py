@@ -162,4 +162,6 @@ def test_export(capsys, refusal, tmp_path):
     assert strict_json(capsys.readouterr().out)["caption"] == table(out)[0]["caption"]
     main([*words, "--format", "svg", "--width", "40", "--black", "--out", str(file)])
     assert file.read_bytes().startswith(b"<?xml")
+    assert "20 to 400 mm wide" in refusal(*words, "--format", "svg", "--width", "nan")
+    assert "choose one of body, omega" in refusal("export", "--picture", "../../etc")
     assert "invalid state value: 'h'" in refusal("export", "--state", "h")

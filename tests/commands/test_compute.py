@@ -159,6 +159,7 @@ def test_refusals(refusal, words, part):
     "words, library, extra",
     [
         (["tube", "suslov"], "flint", "prove"),
+        (["prove", "--a", "-0.5", "--h", "1.5", "--f", "1.7"], "flint", "prove"),
         ([*CIRCLE_MAP, "--format", "netcdf", "--out", "circle.nc"], "xarray", "data"),
     ],
 )

@@ -35,6 +35,7 @@ def test_the_certificate_proves_what_the_words_say(answer, capsys, tmp_path):
     [
         (("--f", "9"), "No motion has exactly h = 1.5 and f = 9"),
         (("--f", "x"), "f = 'x' is not an exact number; write it like 1.5, -2e-3 or 3/4"),
+        (("--h", "1", "--f", "0"), "separatrix"),
     ],
 )
 def test_bad_numbers_are_refused_with_a_sentence(refusal, words, said):

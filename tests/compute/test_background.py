@@ -365,6 +365,20 @@ def test_the_last_piece_may_come_while_its_picture_is_drawn(gate):
     assert "λ = " in browser.texts["exponent"]
 
 
+def test_a_box_beyond_the_section_is_cut_and_one_that_is_none_is_not_taken(free_gate):
+    browser = Browser(EP, SMALL)
+    browser.ask(1, picked=["section", 0.0, 0.5, 1.0, 7.0])
+    assert points_of(browser.session.values["window"]) == [(0.0, 0.5), (1.0, 1.0)]
+    before = dict(browser.session.values)
+    for corners in ([0.0, 0.5, 0.0, 0.7], [0.0, 2.0, 1.0, 3.0], ["0", 0, 1, 1]):
+        browser.ask(2, picked=["section", *corners])
+        assert browser.session.values == before
+    for picture in ("sphere", "nobody"):
+        browser.ask(3, picked=[picture, 0.0, 0.1, 1.0, 0.9])
+        browser.ask(3, picked=[picture, 0.0, 0.1])
+        assert browser.session.values == before
+
+
 def test_tasks_of_a_state_end_before_another_one_is_computed(free_gate, monkeypatch):
     browser, order = Browser(EP, SMALL), []
     stop, compute = browser.session.background.stop, Scene.compute

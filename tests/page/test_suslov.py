@@ -77,3 +77,7 @@ def test_the_section_is_computed_where_the_wheel_zooms_and_a_double_click_shows_
         assert explorer.axes("section") == whole
         assert explorer.data("section-chosen") == starts
         assert explorer.link() == link
+    # Each click adds an orbit in another colour.
+    explorer.change(explorer.click, x, y)
+    assert len(explorer.data("section-chosen1")["x"]) == 1
+    assert explorer.data("sphere")["look"] == "chosen-1"

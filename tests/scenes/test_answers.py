@@ -6,12 +6,50 @@ import pytest
 from hess_explorer.scenes import scenes
 from oracle.closed_forms import cos_chi
 from support.suslov_hess import exact_states
+from support.view import values_of
 
 
 def said(name, values):
     """The sentence on a state of a scene."""
     scene = scenes()[name]
     return scene.answer(scene.of(scene.admit({**scene.defaults(), **values})[0]))
+
+
+def beginning_with(name, words):
+    """The sentence on an example."""
+    return said(name, values_of(scenes()[name], words))
+
+
+SHOWN = {
+    "suslov-hess": {
+        "Two limit": "Two loops",
+        "No cycle": "No loop",
+        "Smaller a": "No loop",
+        "On the boundary": "The two loops have just met",
+        "Pendulum": "Two loops",
+        "Oscillation": "No loop",
+        "Separatrix": "On the separatrix",
+        "On the bifurcation": "On this edge",
+    },
+    "free-suslov": {"γ₁(t)": "No friction", "Γ(t), k = 1:": "A complete reversal", "Γ(t), k = 1.5": "No friction"},
+    "suslov": {"A chaotic": "Each dot", "Two attractors": "Each colour", "On a principal": "On a principal axis"},
+    "kharlamova": {
+        "Periodic": "Nearly every",
+        "Fixed point": "A fixed point",
+        "Asymptotic": "In this direction",
+        "Near the asymptotic orbit": "Nearly every",
+    },
+    "rotation-number": {"One plateau": "Not locked", "Euler": "Locked"},
+    "ball-section": {"Returning orbits": "A symmetry makes", "Mixed": "Each dot"},
+    "euler-poisson": {"Two layers": "In the Hess case", "The barrier": "Each dot"},
+    "loxodrome": {"High": "The body turns", "Low": "Gravity swings", "Separatrix": "The body climbs"},
+}
+
+
+@pytest.mark.parametrize("name", SHOWN)
+def test_each_example_has_the_sentence_that_holds_there(name):
+    found = {words: beginning_with(name, words) for words in SHOWN[name]}
+    assert {words: sentence for words, sentence in found.items() if not sentence.startswith(SHOWN[name][words])} == {}
 
 
 BESIDE = {
@@ -21,7 +59,6 @@ BESIDE = {
 
 @pytest.mark.parametrize("name", [name for name, scene in scenes().items() if scene.origin is None])
 def test_each_sentence_of_a_scene_is_shown_in_an_example_or_beside_one(name):
-    """Which of them each example has is in "presets.json"."""
     scene = scenes()[name]
     states = (*(one.values for one in scene.presets), *BESIDE.get(name, ()))
     assert {said(name, values) for values in states} == {one.sentence for one in scene.answers}

@@ -49,6 +49,10 @@ class LevelCost:
         """True if an error was measured."""
         return not math.isnan(self.error)
 
+    def suffices(self, largest: float) -> bool:
+        """Return True if the level is complete and its error at most the largest that is small enough."""
+        return self.complete and self.error <= largest
+
 
 def truth_plan(kind: Kind) -> Plan:
     """Return the plan of the reference result with which the levels of a kind of computation are compared.
@@ -148,7 +152,7 @@ def first_sufficient(samples: Iterable[LevelCost], largest: float) -> str:
     """
     last = STANDARD.name
     for one in samples:
-        if one.complete and one.error <= largest:
+        if one.suffices(largest):
             return one.level
         if one.is_measured:
             last = REFERENCE.name

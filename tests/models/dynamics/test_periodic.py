@@ -70,8 +70,12 @@ def test_near_looks_from_the_place_alone():
 @mark.parametrize(
     ("map_", "place", "kind"),
     [
+        (delayed_logistic(1.5), (0.3, 0.3), "stable focus"),
+        (delayed_logistic(2.1), (0.5, 0.5), "unstable focus"),
         (delayed_logistic(2.0), (0.5, 0.4), "elliptic"),
         (bent_saddle(), (0.1, 0.2), "saddle"),
+        (arnold(0.1), (0.3,), "stable node"),
+        (arnold(0.1), (2.9,), "unstable node"),
     ],
 )
 def test_types(map_, place, kind):

@@ -3,9 +3,10 @@
 import math
 
 import numpy as np
-from pytest import approx, mark
+from pytest import approx, mark, raises
 
 from hess_mechanics import HessBody, circle_map, level, systems, turning_points
+from hess_mechanics.errors import NoField, OutsideRegion
 from hess_mechanics.suslov_hess.torus import MAX_RETURNS, annulus, cycles, track
 from support.mechanics import scipy_states
 
@@ -56,3 +57,10 @@ def test_a_long_span_is_cut_at_the_most_returns():
     orbit = track(body, 1.5, 0.6, 0.0, 1e5, "draft", 4.0)
     assert orbit.times[-1] == approx(MAX_RETURNS * period)
     assert np.all(np.diff(orbit.times) > 0)
+
+
+def test_impossible_tori_are_refused_with_a_sentence():
+    with raises(OutsideRegion, match="choose"):
+        track(BODIES[0], 0.0, 5.0, 0.0, 1.0, REFERENCE, 4.0)
+    with raises(NoField, match="b3"):
+        track(HessBody(1.0, 0.5, 0.0), 1.5, 0.6, 0.0, 1.0, REFERENCE, 4.0)

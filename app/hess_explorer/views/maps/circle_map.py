@@ -45,12 +45,14 @@ def _copies(circle_map: CircleMap) -> list[Array]:
 
 def _fixed_points(circle_map: CircleMap, layer: str) -> tuple[list[float], list[float]]:
     """Return the coordinates of the fixed points of a layer: "stable", "unstable", or "merged" of a parabolic map."""
-    found = [
-        point.phi
-        for point in circle_map.fixed_points
-        if layer
-        == ("merged" if circle_map.kind == "parabolic" else "stable" if point.log_multiplier < 0.0 else "unstable")
-    ]
+    if circle_map.kind == "parabolic":
+        found = [point.phi for point in circle_map.fixed_points if layer == "merged"]
+    else:
+        found = [
+            point.phi
+            for point in circle_map.fixed_points
+            if layer == ("stable" if point.log_multiplier < 0.0 else "unstable")
+        ]
     return found, found
 
 

@@ -66,7 +66,7 @@ class Costs:
         return {
             trial: first_sufficient(samples, trial.tolerance)
             for trial, samples in self.samples.items()
-            if any(one.complete and one.error <= trial.tolerance for one in samples)
+            if any(one.suffices(trial.tolerance) for one in samples)
         }
 
     @cached_property
