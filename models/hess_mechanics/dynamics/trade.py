@@ -50,7 +50,18 @@ class LevelCost:
         return not math.isnan(self.error)
 
     def suffices(self, largest: float) -> bool:
-        """Return True if the level is complete and its error at most the largest that is small enough."""
+        """Return True if the level is complete and its error is small enough.
+
+        Parameters
+        ----------
+        largest : float
+            Largest error that is small enough.
+
+        Returns
+        -------
+        bool
+            False also if no error was measured.
+        """
         return self.complete and self.error <= largest
 
 
